@@ -1,0 +1,54 @@
+"""Everything that can go wrong, one class per cause; `curvcli.commands` turns a cause into an exit code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+class CurvcliError(Exception):
+    """Base of every error that is the input's, the option's or the output's fault, never the program's."""
+
+
+class UsageError(CurvcliError):
+    """An option, a name or a configuration key that is not known or does not fit."""
+
+
+class MissingExtraError(UsageError):
+    """A feature whose optional packages are not installed; the message says how to install them."""
+
+
+class InputError(CurvcliError):
+    """A mesh that is missing, cannot be read, is empty, or breaks a rule that no option relaxes.
+
+    The text is one line: `path: place: what was found, what was expected; the way out`.
+    """
+
+    def __init__(self, problem: str, *, path: str | None = None, place: str | None = None, hint: str | None = None):
+        self.problem, self.path, self.place, self.hint = problem, path, place, hint
+        super().__init__(problem)
+
+    def __str__(self) -> str:
+        line = ": ".join(part for part in (self.path, self.place, self.problem) if part)
+        return f"{line}; {self.hint}" if self.hint else line
+
+
+class OutputError(CurvcliError):
+    """An output that exists already, cannot be written, or would be written twice."""
+
+
+class NoMatchError(CurvcliError):
+    """A pattern that no file matched."""
+
+
+@dataclass(frozen=True)
+class Notice:
+    """Something accepted but worth knowing: a stable code, how often, in words, and the way out.
+
+    `examples` holds the first few indices concerned, in the file's own numbering from 0.
+    """
+
+    code: str
+    count: int
+    message: str
+    hint: str | None = None
+    examples: tuple[int, ...] = ()

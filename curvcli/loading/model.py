@@ -1,0 +1,47 @@
+"""What a mesh file says, before anything is interpreted: positions, polygons, labels and properties in file order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import Notice
+
+
+@dataclass(frozen=True)
+class Labels:
+    """One label per polygon, such as the OBJ group it stands in: `codes` indexes `names`, -1 where there is none."""
+
+    codes: NDArray[np.int32]
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class MeshFile:
+    """The content of one mesh file.
+
+    xyz: (3, V) float64, C-contiguous, one row per coordinate; vertex order is the file's.
+    corners: int32, the corner indices (from 0) of all polygons one after the other.
+    sizes: (P,) int32, corners per polygon, or None when every polygon is a triangle (corners is then 3 P long).
+    vertex_properties, polygon_properties: further per-element scalars of a PLY file by name, in file order.
+    polygon_labels: `groups`, `objects`, `materials` of an OBJ file, where it has any.
+    polylines: vertex indices of each OBJ `l` record.
+    notices: what was accepted but should be said.
+    """
+
+    format: str
+    xyz: NDArray[np.float64]
+    corners: NDArray[np.int32]
+    sizes: NDArray[np.int32] | None = None
+    vertex_properties: dict[str, NDArray[np.generic]] = field(default_factory=dict)
+    polygon_properties: dict[str, NDArray[np.generic]] = field(default_factory=dict)
+    polygon_labels: dict[str, Labels] = field(default_factory=dict)
+    polylines: tuple[NDArray[np.int32], ...] = ()
+    notices: tuple[Notice, ...] = ()
+
+    @property
+    def polygons(self) -> int:
+        """Number of polygons in the file."""
+        return len(self.corners) // 3 if self.sizes is None else len(self.sizes)
