@@ -28,6 +28,8 @@ class MeshFile:
     vertex_properties, polygon_properties: further per-element scalars of a PLY file by name, in file order.
     polygon_labels: `groups`, `objects`, `materials` of an OBJ file, where it has any.
     polylines: vertex indices of each OBJ `l` record.
+    welded_to: (V,) the row that holds the values of a merged row, -1 for a row that holds its own; None without welding.
+    path, sha256: where the bytes came from (`-` for a stream) and their hash, None for arrays made in memory.
     notices: what was accepted but should be said.
     """
 
@@ -39,6 +41,9 @@ class MeshFile:
     polygon_properties: dict[str, NDArray[np.generic]] = field(default_factory=dict)
     polygon_labels: dict[str, Labels] = field(default_factory=dict)
     polylines: tuple[NDArray[np.int32], ...] = ()
+    welded_to: NDArray[np.int32] | None = None
+    path: str | None = None
+    sha256: str | None = None
     notices: tuple[Notice, ...] = ()
 
     @property
