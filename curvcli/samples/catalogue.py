@@ -1,0 +1,58 @@
+"""The list of every sample: `@sample` enters a surface, `get` and `names` find it again."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ..errors import UsageError
+
+if TYPE_CHECKING:
+    from .model import Sample, SampleSpec
+
+FAMILIES = ("polyhedra", "spheres", "tubes", "graphs", "nonorientable")
+"""The modules that hold the surfaces, in the order they are listed in."""
+
+_registry: dict[str, SampleSpec] = {}
+
+
+def sample(*, summary: str, exact: str) -> Callable[[Callable[..., Sample]], SampleSpec]:
+    """Enter a surface under the name of its function.
+
+    summary: what the surface is, for lists. exact: one sentence saying what is exactly known about it.
+    """
+
+    def enter(function: Callable[..., Sample]) -> SampleSpec:
+        from .model import SampleSpec
+
+        spec = SampleSpec(function.__name__, summary, exact, function)
+        _registry[spec.name] = spec
+        return spec
+
+    return enter
+
+
+def specs() -> tuple[SampleSpec, ...]:
+    """Every sample, family by family."""
+    for family in FAMILIES:
+        importlib.import_module(f"{__package__}.{family}")
+    order = {f"{__package__}.{family}": place for place, family in enumerate(FAMILIES)}
+    return tuple(sorted(_registry.values(), key=lambda spec: order.get(spec.function.__module__, len(order))))
+
+
+def names() -> tuple[str, ...]:
+    """The name of every sample, family by family."""
+    return tuple(spec.name for spec in specs())
+
+
+def get(name: str) -> SampleSpec:
+    """The sample of that name; UsageError with the nearest names for one that is not known."""
+    known = {spec.name: spec for spec in specs()}
+    spec = known.get(name.strip().lower().replace("-", "_"))
+    if spec is None:
+        nearest = difflib.get_close_matches(name.strip().lower().replace("-", "_"), known, n=3, cutoff=0.5)
+        advice = f"nearest: {', '.join(nearest)}" if nearest else f"known: {', '.join(known)}"
+        raise UsageError(f"there is no sample named {name!r}; {advice}")
+    return spec

@@ -1,0 +1,140 @@
+"""What a sample is: a mesh, what is exactly true of it, and the smooth surface it approximates."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import UsageError
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int32]
+Columns = dict[str, FloatArray]
+Fact = int | float | bool | None
+
+LENGTH_EXPONENT = {
+    "K_density": -2,
+    "h": -1,
+    "h_signed": -1,
+    "kappa_1": -1,
+    "kappa_2": -1,
+    "area": 2,
+    "volume": 3,
+    "H_theta": 1,
+}
+"""How columns and totals grow with the surface; a name that is absent here does not."""
+
+_WORDS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A test surface.
+
+    points: (V, 3) float64. faces: (F, 3) int32, counterclockwise seen from outside (graphs: from above).
+    exact: (V,) columns with the names and signs of the vertex table, NaN where the surface has none. Curvatures
+    are those of the smooth surface through the points; `K`, where present, is the angle defect of the mesh itself.
+    facts: what holds for this very mesh: topology under the names of the report, and totals.
+    limit: totals of the smooth surface, to which those of ever finer meshes tend (a Schwarz lantern's do not).
+    name, description: what was asked for, and what is exactly known, in one sentence.
+    """
+
+    points: FloatArray
+    faces: IntArray
+    exact: Columns = field(default_factory=dict)
+    facts: dict[str, Fact] = field(default_factory=dict)
+    limit: dict[str, float] = field(default_factory=dict)
+    name: str = ""
+    description: str = ""
+
+    def scaled(self, factor: float) -> Sample:
+        """The same surface, `factor` times as large, with everything known about it."""
+        demand(math.isfinite(factor) and factor > 0, f"the scale must be a positive number, not {factor!r}")
+
+        def grown(name: str, value: Any) -> Any:
+            exponent = LENGTH_EXPONENT.get(name, 0)
+            return value * factor**exponent if exponent else value
+
+        return dataclasses.replace(
+            self,
+            points=self.points * factor,
+            exact={name: grown(name, column) for name, column in self.exact.items()},
+            facts={name: grown(name, fact) for name, fact in self.facts.items()},
+            limit={name: grown(name, total) for name, total in self.limit.items()},
+        )
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One keyword of a sample: its name, type (int, float or bool) and default."""
+
+    name: str
+    kind: type
+    default: int | float | bool
+
+
+@dataclass(frozen=True)
+class SampleSpec:
+    """A surface of the catalogue; calling it with its parameters makes the sample."""
+
+    name: str
+    summary: str
+    exact: str
+    function: Callable[..., Sample]
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The keywords it takes, in the order of its definition."""
+        signature = inspect.signature(self.function, eval_str=True)
+        return tuple(Parameter(p.name, p.annotation, p.default) for p in signature.parameters.values())
+
+    def parse(self, settings: Mapping[str, str]) -> dict[str, int | float | bool]:
+        """Keywords from text such as {"size": "2000"}; UsageError for an unknown name or a value of the wrong kind."""
+        kinds = {parameter.name: parameter.kind for parameter in self.parameters}
+        values: dict[str, int | float | bool] = {}
+        for name, text in settings.items():
+            key = name.strip().replace("-", "_")
+            demand(key in kinds, f"sample {self.name} has no parameter {name!r}; it has {', '.join(kinds) or 'none'}")
+            values[key] = _value(key, text.strip(), kinds[key])
+        return values
+
+    def __call__(self, **values: int | float | bool) -> Sample:
+        """Make the surface; UsageError for a parameter it does not have or a value it cannot be made with."""
+        known = {parameter.name for parameter in self.parameters}
+        for name, value in values.items():
+            demand(
+                name in known,
+                f"sample {self.name} has no parameter {name!r}; it has {', '.join(sorted(known)) or 'none'}",
+            )
+            demand(math.isfinite(value), f"{name} must be finite, not {value!r}")
+        made = self.function(**values)
+        return dataclasses.replace(made, name=self.name, description=self.exact)
+
+
+def demand(condition: bool, otherwise: str) -> None:
+    """Raise UsageError with that message unless the condition holds."""
+    if not condition:
+        raise UsageError(otherwise)
+
+
+def demand_positive(**values: float) -> None:
+    """Raise UsageError unless every value is above zero."""
+    for name, value in values.items():
+        demand(value > 0, f"{name} must be positive, not {value!r}")
+
+
+def _value(name: str, text: str, kind: type) -> int | float | bool:
+    try:
+        if kind is bool:
+            return _WORDS[text.lower()]
+        return int(text) if kind is int else float(text)
+    except (KeyError, ValueError):
+        wanted = {bool: "true or false", int: "a whole number", float: "a number"}[kind]
+        raise UsageError(f"{name} must be {wanted}, not {text!r}") from None
