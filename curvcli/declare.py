@@ -1,0 +1,168 @@
+"""The declaration of a pass: what a quantity is called, what it is, what it keeps, and what it is computed from.
+
+A pass is one pure function. Its name is the column, its parameters are the quantities it needs, its decorator says what
+it is; tables, schema, documentation, invariance tests and benchmarks follow from that.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import UsageError
+
+if TYPE_CHECKING:
+    from .surface import Surface
+
+Column = NDArray[np.float64]
+VectorColumn = NDArray[np.float64]  # (3, n), one contiguous row per coordinate
+Flags = NDArray[np.bool_]
+Codes = NDArray[np.int8]
+Counts = NDArray[np.int32]
+
+Element = Literal["vertex", "edge", "face"]
+Kind = Literal["measure", "density", "angle", "length", "direction", "ratio", "count", "label", "flag"]
+Parity = Literal["even", "odd"]
+
+# Parameters that are no quantity: the surface itself, and the area that `--area` chooses.
+SURFACE, CELL_AREA = "surface", "cell_area"
+CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One column.
+
+    name: of the column. symbol, formula, preserves, boundary, source: for people. on: its element.
+    kind: `measure` is integrated, `density` is per area or pointwise. length_exponent: how it scales with length.
+    mean_degree: 0, 1 or 2, how it scales with the convention for H. parity: under reversal of the orientation; what is odd
+    is null on patches that have none. vector: (3, n). public: whether it is a column of the table.
+    total: the key of its sum in the report. signed: whether 0 is the middle of its range.
+    """
+
+    name: str
+    symbol: str = ""
+    formula: str = ""
+    on: Element = "vertex"
+    kind: Kind = "measure"
+    length_exponent: int = 0
+    mean_degree: int = 0
+    parity: Parity = "even"
+    preserves: str = ""
+    boundary: str = ""
+    source: str = ""
+    vector: bool = False
+    public: bool = True
+    total: str | None = None
+    signed: bool = False
+    labels: tuple[str, ...] = ()
+    description: str = ""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of its scalar columns: three for a vector."""
+        return tuple(f"{self.name}_{axis}" for axis in "xyz") if self.vector else (self.name,)
+
+    def unit(self, length: str | None) -> str:
+        """Its unit in terms of the unit of length, `1` for a pure number."""
+        exponent = self.length_exponent
+        base = length or "length"
+        return "1" if exponent == 0 else base if exponent == 1 else f"{base}^{exponent}"
+
+
+@dataclass(frozen=True)
+class Pass:
+    """A registered function with the quantities it provides and the names of what it needs."""
+
+    name: str
+    compute: Callable[..., Any]
+    provides: tuple[Quantity, ...]
+    needs: tuple[str, ...]
+
+    def __call__(self, surface: Surface) -> Any:
+        """Its column on a surface ((V, 3) for a vector), or a dictionary of them if it provides several."""
+        from .pipeline import evaluate, presented
+
+        found = evaluate(surface, [quantity.name for quantity in self.provides])
+        shown = {q.name: presented(q, found[q.name], surface.unit) for q in self.provides}
+        return shown[self.provides[0].name] if len(shown) == 1 else shown
+
+
+class Registry(Mapping[str, Pass]):
+    """All passes by name; quantities are looked up with `provider` and `quantity`."""
+
+    def __init__(self) -> None:
+        self._passes: dict[str, Pass] = {}
+        self._providers: dict[str, Pass] = {}
+
+    def __getitem__(self, name: str) -> Pass:
+        return self._passes[name]
+
+    def __getattr__(self, name: str) -> Pass:
+        try:
+            return self._passes[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._passes)
+
+    def __len__(self) -> int:
+        return len(self._passes)
+
+    def add(self, new: Pass) -> None:
+        """Register a pass; its needs must be known and its columns new, so that a misspelling fails at import."""
+        for need in new.needs:
+            if need not in self._providers and need not in (SURFACE, CELL_AREA):
+                near = get_close_matches(need, [*self._providers, SURFACE, CELL_AREA], 3)
+                raise UsageError(f"pass {new.name} needs {need}, which no pass provides; nearest: {', '.join(near)}")
+        for quantity in new.provides:
+            if quantity.name in self._providers:
+                raise UsageError(f"pass {new.name} provides {quantity.name}, which exists already")
+        self._passes[new.name] = new
+        self._providers.update({quantity.name: new for quantity in new.provides})
+
+    def provider(self, quantity: str) -> Pass:
+        """The pass that provides a quantity."""
+        return self._providers[quantity]
+
+    def quantity(self, name: str) -> Quantity:
+        """The declaration of a quantity."""
+        return next(quantity for quantity in self._providers[name].provides if quantity.name == name)
+
+    def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
+        """Quantities in the order of declaration."""
+        return [
+            quantity
+            for registered in self._passes.values()
+            for quantity in registered.provides
+            if (quantity.public or not public) and on in (None, quantity.on)
+        ]
+
+
+passes = Registry()
+
+
+def curvature_pass(provides: tuple[Quantity, ...] = (), **declaration: Any) -> Callable[[Callable[..., Any]], Pass]:
+    """Register a function as a pass.
+
+    Without `provides`, the function's name is its one quantity and the keywords are the fields of `Quantity`; with it,
+    the function returns a tuple of arrays in that order.
+    """
+
+    def register(function: Callable[..., Any]) -> Pass:
+        name = function.__name__
+        text = inspect.cleandoc(function.__doc__ or "")
+        quantities = provides or (Quantity(name, **declaration),)
+        quantities = tuple(q if q.description else replace(q, description=text) for q in quantities)
+        new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters))
+        passes.add(new)
+        return new
+
+    return register

@@ -1,0 +1,121 @@
+"""Groups: the surface as one piece, its components or regions of it, and sums over each that lose no digits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .topology import Index
+
+if TYPE_CHECKING:
+    from .surface import Surface
+
+Floats = NDArray[np.float64]
+
+
+class Segments:
+    """Members of groups in contiguous runs, for sums by group.
+
+    label: (n,) group of each member, -1 for none; None when every member is of the only group.
+    """
+
+    def __init__(self, label: Index | None, count: int, size: int) -> None:
+        self.label, self.count, self.size = label, count, size
+
+    @cached_property
+    def _runs(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        assert self.label is not None
+        order = np.argsort(self.label, kind="stable")
+        per_group = np.bincount(self.label + 1, minlength=self.count + 1)
+        start = np.concatenate([[0], np.cumsum(per_group)])[1:]
+        return order, start[:-1], per_group[1:]
+
+    def members(self) -> NDArray[np.int64]:
+        """Number of members of each group."""
+        return np.array([self.size]) if self.label is None else self._runs[2]
+
+    def sum(self, values: NDArray[np.generic]) -> NDArray[np.float64]:
+        """Sums over each group by pairwise summation, error O(log n · ε); nulls (NaN) are left out."""
+        plain = np.asarray(values, np.float64)
+        if np.isnan(plain).any():
+            plain = np.where(np.isnan(plain), 0.0, plain)
+        if self.label is None:
+            return np.array([plain.sum()])
+        order, start, per_group = self._runs
+        sums = np.zeros(self.count)
+        filled = per_group > 0
+        if filled.any():
+            sums[filled] = np.add.reduceat(plain[order], start[filled])[: int(filled.sum())]
+        return sums
+
+    def count_true(self, mask: NDArray[np.bool_]) -> NDArray[np.int64]:
+        """Number of members of each group where the mask holds."""
+        if self.label is None:
+            return np.array([np.count_nonzero(mask)])
+        return np.bincount(self.label[mask] + 1, minlength=self.count + 1)[1:]
+
+    def any(self, mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Whether the mask holds for some member of each group."""
+        found: NDArray[np.bool_] = self.count_true(mask) > 0
+        return found
+
+    def max(self, values: Floats) -> Floats:
+        """Largest value of each group; NaN for a group without one."""
+        largest = np.full(self.count, -np.inf)
+        known = ~np.isnan(values)
+        np.maximum.at(largest, 0 if self.label is None else self.label[known], values[known])
+        return np.where(largest == -np.inf, np.nan, largest)
+
+
+@dataclass(frozen=True)
+class Groups:
+    """A partition of a surface's faces, with the vertices and edges that go with each part.
+
+    kind: `whole`, `component` or `region`. face: (F,) group of each face.
+    """
+
+    kind: str
+    count: int
+    face: Index
+    faces: Segments
+    vertices: Segments
+    edges: Segments
+
+    def scope(self, group: int) -> str:
+        """How a group is named in checks and messages."""
+        return self.kind if self.kind == "whole" else f"{self.kind} {group}"
+
+    def of(self, element: str) -> Segments:
+        """The segments of `vertex`, `edge` or `face` values."""
+        return {"vertex": self.vertices, "edge": self.edges, "face": self.faces}[element]
+
+
+def whole(surface: Surface, kind: str = "whole") -> Groups:
+    """The whole surface as one group; unreferenced vertices have only nulls to add."""
+    return Groups(
+        kind,
+        1,
+        np.zeros(surface.n_faces, np.int32),
+        Segments(None, 1, surface.n_faces),
+        Segments(None, 1, surface.n_vertices),
+        Segments(None, 1, len(surface.edges)),
+    )
+
+
+def by_component(surface: Surface, face: Index, count: int) -> Groups:
+    """One group per component, given the component of each face."""
+    vertex = np.full(surface.n_vertices, -1, np.int32)
+    vertex[surface.faces.ravel()] = np.repeat(face, 3)
+    edge = vertex[surface.edges.a]
+    return Groups(
+        "component",
+        count,
+        face,
+        Segments(face, count, len(face)),
+        Segments(vertex, count, len(vertex)),
+        Segments(edge, count, len(edge)),
+    )

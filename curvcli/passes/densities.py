@@ -1,0 +1,24 @@
+"""Curvature per area."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..declare import Column, curvature_pass
+from ..surface import Surface
+
+
+@curvature_pass(
+    symbol="K",
+    formula="K_p / area, the area chosen by --area",
+    kind="density",
+    length_exponent=-2,
+    signed=True,
+    preserves="Σ K_density · area = ΣK inside",
+    boundary="null",
+    source="Sullivan, Discrete surfaces",
+)
+def K_density(surface: Surface, K: Column, cell_area: Column) -> Column:
+    """Gauss curvature per area; exact in sum, but on irregular triangulations it does not converge pointwise."""
+    usable = surface.interior & (cell_area > 0)
+    return np.divide(K, cell_area, where=usable, out=np.full(len(K), np.nan))

@@ -1,0 +1,375 @@
+"""Surface: points and triangles, and everything combinatorial that follows from them, worked out once and on demand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import InputError, Notice
+from .groups import Groups, by_component, whole
+from .orientation import Orientation, Sign, orient, orient_stars, same_direction
+from .topology import (
+    Edges,
+    Index,
+    Mask,
+    ends,
+    find_edges,
+    find_twins,
+    label_graph,
+    renumber_by_lowest_member,
+    split_stars,
+    vertex_components,
+)
+
+if TYPE_CHECKING:
+    from .loading.model import MeshFile
+
+# Extents between these powers of two are computed in the file's own unit; outside, squares of squares would overflow.
+_LARGEST_EXPONENT = 150
+
+STATUS = ("interior", "boundary", "degenerate", "nonmanifold", "unreferenced")
+
+
+class Surface:
+    """A triangle mesh: points and faces, frozen, with its edges, stars, components and orientation.
+
+    points: (V, 3) float64 in the file's unit and order. faces: (F, 3) int32 as wound in the file; faces with a repeated
+    corner are dropped and counted (`notices`, code `repeated_corner_faces`).
+    face_of: (F,) the triangle's index among the triangles given, None if none was dropped; polygon: (F,) the polygon of
+    the file each face came from, None where they are the same.
+    Errors: InputError for a corner out of range, a coordinate of a face that is not finite, or no face at all.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        faces: ArrayLike,
+        *,
+        orient: Literal["file", "outward"] = "file",
+        polygon: Index | None = None,
+        file: MeshFile | None = None,
+        notices: Sequence[Notice] = (),
+    ) -> None:
+        self.xyz_given = _as_components(points)
+        triangles = _as_triangles(faces, self.xyz_given.shape[1])
+        repeated = (
+            (triangles[:, 0] == triangles[:, 1])
+            | (triangles[:, 1] == triangles[:, 2])
+            | (triangles[:, 2] == triangles[:, 0])
+        )
+        self.notices = list(notices)
+        if repeated.any():
+            where = np.flatnonzero(repeated)
+            self.notices.append(
+                Notice(
+                    "repeated_corner_faces",
+                    len(where),
+                    "faces with a repeated corner were dropped",
+                    examples=tuple(map(int, where[:5])),
+                )
+            )
+            triangles = np.ascontiguousarray(triangles[~repeated])
+            polygon = np.flatnonzero(~repeated).astype(np.int32) if polygon is None else polygon[~repeated]
+            if not len(triangles):
+                raise InputError("no faces: every face has a repeated corner")
+        self.faces = triangles
+        self.faces.setflags(write=False)
+        self.polygon = polygon
+        self.file = file
+        self.orient = orient
+        self._check_finite()
+
+    def _check_finite(self) -> None:
+        bad = ~np.isfinite(self.xyz_given).all(axis=0)
+        if not bad.any():
+            return
+        used = bad & self.referenced
+        if used.any():
+            vertex = int(np.flatnonzero(used)[0])
+            at = ", ".join(f"{value:g}" for value in self.xyz_given[:, vertex])
+            raise InputError(
+                f"coordinates ({at}) are not finite, expected finite numbers at every vertex that a face uses",
+                place=f"vertex {vertex}",
+                hint=f"{int(np.count_nonzero(used))} such vertices; remove their faces or repair them first",
+            )
+
+    # ------------------------------------------------------------------ geometry
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(V, 3) positions as given, a view."""
+        return self.xyz_given.T
+
+    @cached_property
+    def unit(self) -> float:
+        """The power of two in which lengths are computed: 1 unless the mesh is so large or small that squares of areas
+        would leave the range of doubles. Scaling by it is exact."""
+        used = self.xyz_given[:, self.referenced] if not self.referenced.all() else self.xyz_given
+        half = used.max(axis=1) / 2 - used.min(axis=1) / 2
+        extent = float(half.max())
+        exponent = math.frexp(extent)[1] + 1
+        return 1.0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else math.ldexp(1.0, min(exponent, 1023))
+
+    @cached_property
+    def xyz(self) -> NDArray[np.float64]:
+        """(3, V) coordinates in `unit`, one contiguous row per coordinate."""
+        return self.xyz_given if self.unit == 1.0 else self.xyz_given / self.unit
+
+    @cached_property
+    def base(self) -> NDArray[np.float64]:
+        """(3,) a point of the mesh, in `unit`, about which moments are taken so that an offset costs no digits."""
+        return self.xyz[:, self.faces[0, 0]].copy()
+
+    # ------------------------------------------------------------------ incidence
+
+    @property
+    def n_vertices(self) -> int:
+        """Rows of the file, unreferenced ones included."""
+        return int(self.xyz_given.shape[1])
+
+    @property
+    def n_faces(self) -> int:
+        """Triangles that are computed with."""
+        return len(self.faces)
+
+    @cached_property
+    def corner_count(self) -> Index:
+        """(V,) number of faces at each vertex."""
+        return np.bincount(self.faces.ravel(), minlength=self.n_vertices).astype(np.int32)
+
+    @cached_property
+    def referenced(self) -> Mask:
+        """(V,) vertices that some face uses."""
+        mask: Mask = self.corner_count > 0
+        return mask
+
+    @cached_property
+    def edges(self) -> Edges:
+        """Edges with their faces."""
+        return find_edges(self.faces, self.n_vertices)
+
+    @cached_property
+    def degree(self) -> Index:
+        """(V,) number of edges at each vertex."""
+        return self._edge_ends()
+
+    def _edge_ends(self, chosen: Mask | None = None) -> Index:
+        """(V,) how many of the chosen edges end at each vertex."""
+        a, b = (self.edges.a, self.edges.b) if chosen is None else (self.edges.a[chosen], self.edges.b[chosen])
+        count = np.bincount(a, minlength=self.n_vertices)
+        count += np.bincount(b, minlength=self.n_vertices)
+        return count.astype(np.int32)
+
+    @cached_property
+    def boundary_edges(self) -> Mask:
+        """(E,) edges with n_e = 1."""
+        mask: Mask = self.edges.valence == 1
+        return mask
+
+    @cached_property
+    def boundary_degree(self) -> Index:
+        """(V,) number of boundary edges at each vertex."""
+        return self._edge_ends(self.boundary_edges)
+
+    @cached_property
+    def boundary(self) -> Mask:
+        """(V,) boundary vertices: some edge there has n_e = 1."""
+        mask: Mask = self.boundary_degree > 0
+        return mask
+
+    @cached_property
+    def boundary_half_edges(self) -> Index:
+        """Half-edges of the boundary edges, in edge order."""
+        return self.edges.half_edges(self.boundary_edges)
+
+    @cached_property
+    def nonmanifold_edges(self) -> Mask:
+        """(E,) edges with n_e > 2."""
+        mask: Mask = self.edges.valence > 2
+        return mask
+
+    @cached_property
+    def nonmanifold_ends(self) -> Mask:
+        """(V,) ends of edges with n_e > 2."""
+        mask: Mask = self._edge_ends(self.nonmanifold_edges) > 0
+        return mask
+
+    @cached_property
+    def split_stars(self) -> Mask:
+        """(V,) vertices whose star is not one fan and which are not the end of an edge with n_e > 2."""
+        twin = find_twins(self.edges)
+        split = split_stars(self.faces, self.edges, twin, self.consistent_winding, self.boundary_degree)
+        return split & ~self.nonmanifold_ends
+
+    @cached_property
+    def nonmanifold(self) -> Mask:
+        """(V,) vertices of status `nonmanifold`."""
+        return self.split_stars | self.nonmanifold_ends
+
+    @cached_property
+    def interior(self) -> Mask:
+        """(V,) vertices with one closed fan: neither on the boundary nor non-manifold nor unreferenced."""
+        return self.referenced & ~self.boundary & ~self.nonmanifold
+
+    @cached_property
+    def is_manifold(self) -> bool:
+        """Whether every n_e ≤ 2 and every star is one fan."""
+        return not self.nonmanifold.any()
+
+    # ------------------------------------------------------------------ orientation
+
+    @cached_property
+    def winding_conflicts(self) -> Mask:
+        """(E,) edges with n_e = 2 whose two faces run along them the same way in the file."""
+        conflict = np.zeros(len(self.edges), bool)
+        conflict[self.edges.valence == 2] = same_direction(self.faces, *self.edges.pairs())
+        return conflict
+
+    @cached_property
+    def consistent_winding(self) -> bool:
+        """Whether the file's winding is coherent across every edge with n_e = 2."""
+        return not self.winding_conflicts.any()
+
+    @cached_property
+    def _file_orientation(self) -> Orientation:
+        if self.consistent_winding and self.is_manifold:
+            # One fan at every vertex: what hangs together at vertices hangs together across edges.
+            return Orientation(self.components.face, np.ones(self.components.count, bool), None)
+        return orient(self.faces, self.edges)
+
+    @cached_property
+    def orientation(self) -> Orientation:
+        """Patches and the sign of each face; with orient="outward" closed patches of negative volume are turned."""
+        found = self._file_orientation
+        if self.orient == "file" or not self.inside_out.any():
+            return found
+        turned = self.inside_out[found.patch]
+        sign = np.ones(self.n_faces, np.int8) if found.face_sign is None else found.face_sign.copy()
+        sign[turned] *= -1
+        return Orientation(found.patch, found.orientable, sign if (sign < 0).any() else None)
+
+    @cached_property
+    def orientable(self) -> bool:
+        """Whether every patch is."""
+        return bool(self.orientation.orientable.all())
+
+    @cached_property
+    def unorientable_vertices(self) -> Mask | None:
+        """(V,) vertices of patches that have no orientation; None when there are none."""
+        if self.orientable:
+            return None
+        mask = np.zeros(self.n_vertices, bool)
+        mask[self.faces[~self.orientation.orientable[self.orientation.patch]].ravel()] = True
+        return mask
+
+    @cached_property
+    def corner_sign(self) -> Sign | None:
+        """(F, 3) the sign with which each face's normal enters the star of each corner; None when all are +1."""
+        sign = self.orientation.face_sign
+        if self.orientable:
+            return None if sign is None else np.repeat(sign[:, None], 3, axis=1)
+        corners = np.ones((self.n_faces, 3), np.int8) if sign is None else np.repeat(sign[:, None], 3, axis=1)
+        without = ~self.orientation.orientable[self.orientation.patch]
+        corners[without] = orient_stars(self.faces, self.edges)[without]
+        return corners
+
+    @cached_property
+    def half_edge_sum(self) -> NDArray[np.int32]:
+        """(E,) oriented faces that run along each edge from a to b, less those from b to a: 0 where they cancel."""
+        return self._half_edge_sum(self.orientation)
+
+    def _half_edge_sum(self, orientation: Orientation) -> NDArray[np.int32]:
+        tail, head = ends(self.faces)
+        way = np.where(tail < head, 1, -1).astype(np.int8)
+        if orientation.face_sign is not None:
+            way *= np.repeat(orientation.face_sign, 3)
+        return np.add.reduceat(way[self.edges.order], self.edges.start[:-1], dtype=np.int32)
+
+    @cached_property
+    def closed_patches(self) -> Mask:
+        """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
+        found = self._file_orientation
+        closed = np.ones(len(found.orientable), bool)
+        odd = self.edges.valence != 2
+        if odd.any():
+            half_edges = self.edges.order[np.repeat(odd, self.edges.valence)]
+            edge = np.repeat(np.flatnonzero(odd), self.edges.valence[odd])
+            patch = found.patch[half_edges // 3].astype(np.int64)
+            key, where, count = np.unique(edge * len(closed) + patch, return_inverse=True, return_counts=True)
+            tail, head = ends(self.faces)
+            way = np.where(tail[half_edges] < head[half_edges], 1.0, -1.0)
+            if found.face_sign is not None:
+                way *= found.face_sign[half_edges // 3]
+            unbalanced = (count != 2) | (np.bincount(where, way) != 0)
+            closed[(key % len(closed))[unbalanced]] = False
+        return closed
+
+    @cached_property
+    def inside_out(self) -> Mask:
+        """(patches,) closed orientable patches whose volume is negative as the file winds them."""
+        found = self._file_orientation
+        candidates = self.closed_patches & found.orientable
+        if not candidates.any():
+            return candidates
+        from .blocks import signed_volumes  # blocks stand above the surface; only this question reaches up
+
+        volume = signed_volumes(self, found.patch)
+        if found.face_sign is not None:
+            volume *= found.face_sign
+        return candidates & (np.bincount(found.patch, volume, minlength=len(candidates)) < 0)
+
+    # ------------------------------------------------------------------ pieces
+
+    @cached_property
+    def components(self) -> Groups:
+        """Pieces connected by shared vertices, listed by their lowest face."""
+        count, vertex = vertex_components(self.edges, self.n_vertices)
+        loose = self.n_vertices - int(np.count_nonzero(self.referenced))
+        if count - loose == 1:
+            return whole(self, "component")
+        pieces, face = renumber_by_lowest_member(vertex[self.faces[:, 0]], count)
+        return by_component(self, face, pieces)
+
+    @cached_property
+    def whole(self) -> Groups:
+        """The whole surface as one group."""
+        return whole(self)
+
+    @cached_property
+    def boundary_loop_of(self) -> tuple[int, Index]:
+        """Number of boundary curves and the curve of each boundary half-edge, joined at shared vertices."""
+        half_edges = self.boundary_half_edges
+        tail, head = (end[half_edges] for end in ends(self.faces))
+        at, where = np.unique(np.concatenate([tail, head]), return_inverse=True)
+        count, label = label_graph(len(at), where[: len(tail)], where[len(tail) :])
+        return renumber_by_lowest_member(label[where[: len(tail)]], count) if len(at) else (0, half_edges)
+
+
+def _as_components(points: ArrayLike) -> NDArray[np.float64]:
+    given = np.asarray(points)
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
+        raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (V, 3)")
+    xyz = np.array(given.T, np.float64, order="C", copy=None)
+    xyz = xyz.view()  # so that freezing ours leaves the caller's array writable
+    xyz.setflags(write=False)
+    return xyz
+
+
+def _as_triangles(faces: ArrayLike, vertices: int) -> Index:
+    given = np.asarray(faces)
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
+        raise InputError(f"faces have shape {given.shape} and type {given.dtype}, expected indices of shape (F, 3)")
+    if not len(given):
+        raise InputError("no faces: there is no surface to measure", hint="expected at least one face")
+    if given.min() < 0 or given.max() >= vertices:
+        face, corner = (int(i) for i in np.argwhere((given < 0) | (given >= vertices))[0])
+        raise InputError(
+            f"corner {given[face, corner]} does not exist, expected a vertex index from 0 to {vertices - 1}",
+            place=f"face {face}",
+        )
+    return np.array(given, np.int32, order="C", copy=None).view()
