@@ -1,0 +1,65 @@
+"""The formats an output can have, by suffix: the one list that every option and every message uses."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Literal
+
+from ..errors import UsageError
+
+Kind = Literal["table", "mesh", "report", "picture"]
+
+
+@dataclass(frozen=True)
+class Format:
+    """One kind of file: its suffix with the dot, what it holds, and a line for the help."""
+
+    suffix: str
+    kind: Kind
+    description: str
+
+
+FORMATS: dict[str, Format] = {
+    format.suffix: format
+    for format in (
+        Format(".csv", "table", "table, comma-separated"),
+        Format(".tsv", "table", "table, tab-separated"),
+        Format(".parquet", "table", "table, Apache Parquet"),
+        Format(".npz", "table", "table, numpy arrays"),
+        Format(".ply", "mesh", "mesh with every column as a property, binary"),
+        Format(".obj", "mesh", "mesh with vertex colours, text"),
+        Format(".stl", "mesh", "triangles, binary, float32"),
+        Format(".json", "report", "report, JSON"),
+    )
+}
+
+
+def suffixes(kinds: Collection[Kind] | None = None) -> tuple[str, ...]:
+    """The promised suffixes of these kinds, or of all, in the order of the documentation."""
+    return tuple(suffix for suffix, format in FORMATS.items() if kinds is None or format.kind in kinds)
+
+
+def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | None = None) -> Format:
+    """The format of an output: `name` (as in `--format csv`) if given, else the suffix of the path.
+
+    Errors: UsageError for a suffix or a name that is not promised, with the list of those that are.
+    """
+    promised = suffixes(kinds)
+    given = name if name is not None else os.path.splitext(path)[1]
+    if name is None and path == "-":
+        raise UsageError(f"-: a stream has no suffix; say --format with one of {_listed(promised, dot=False)}")
+    suffix = "." + given.lower().lstrip(".")
+    if suffix in promised:
+        return FORMATS[suffix]
+    where = f"--format {name}" if name is not None else (path if path.isprintable() else ascii(path))
+    problem = f"unknown format {given!r}" if given else "a name without a suffix"
+    near = difflib.get_close_matches(suffix, promised, n=1)
+    guess = f"did you mean {near[0]}? " if near else ""
+    raise UsageError(f"{where}: {problem}; {guess}known here are {_listed(promised, dot=name is None)}")
+
+
+def _listed(promised: tuple[str, ...], *, dot: bool) -> str:
+    return " ".join(promised if dot else (suffix.removeprefix(".") for suffix in promised))
