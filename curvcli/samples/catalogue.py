@@ -12,7 +12,19 @@ from ..errors import UsageError
 if TYPE_CHECKING:
     from .model import Sample, SampleSpec
 
-FAMILIES = ("polyhedra", "spheres", "tubes", "graphs", "nonorientable")
+FAMILIES = (
+    "polyhedra",
+    "spheres",
+    "tubes",
+    "assembled",
+    "flat",
+    "graphs",
+    "revolution",
+    "constant_mean",
+    "minimal",
+    "nonorientable",
+    "defects",
+)
 """The modules that hold the surfaces, in the order they are listed in."""
 
 _registry: dict[str, SampleSpec] = {}

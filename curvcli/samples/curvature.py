@@ -15,11 +15,13 @@ from .model import Columns, FloatArray
 def principal(first: ArrayLike, second: ArrayLike) -> Columns:
     """Columns from the two principal curvatures, each (V,), in any order."""
     a, b = np.broadcast_arrays(np.asarray(first, np.float64), np.asarray(second, np.float64))
+    # Adding 0.0 turns a negative zero into zero.
+    a, b = a + 0.0, b + 0.0
     h_signed = a + b
     return {
         "h": np.abs(h_signed),
         "h_signed": h_signed,
-        "K_density": a * b,
+        "K_density": a * b + 0.0,
         "kappa_1": np.maximum(a, b),
         "kappa_2": np.minimum(a, b),
     }
@@ -82,6 +84,15 @@ def of_quadric(weights: tuple[float, float, float], points: FloatArray) -> Colum
     return of_shape_operator(
         _dot(e1 * hessian, e1) / length, _dot(e1 * hessian, e2) / length, _dot(e2 * hessian, e2) / length
     )
+
+
+def inverted(first: ArrayLike, second: ArrayLike, normal: FloatArray, offset: FloatArray) -> Columns:
+    """Columns of the image d / |d|^2 of a surface, where d = offset (V, 3) leads to it from the centre of inversion.
+
+    k -> |d|^2 k - 2 n.d for the normal n, whose image n - 2 (n.d) d / |d|^2 points outward if the centre is outside.
+    """
+    square, shift = _dot(offset, offset), 2 * _dot(normal, offset)
+    return principal(square * np.asarray(first) - shift, square * np.asarray(second) - shift)
 
 
 def _dot(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .model import FloatArray, IntArray
+from .model import FloatArray, IntArray, demand
 
 Integers = NDArray[np.signedinteger]
 
@@ -29,12 +29,6 @@ def looped(numbers: IntArray, axis: int) -> IntArray:
     return np.concatenate([numbers, np.take(numbers, [0], axis=axis)], axis=axis)
 
 
-def pole(numbers: IntArray, vertex: int, *, before: bool = False) -> IntArray:
-    """The table with a row more, all of it one vertex: at the end, or before the first row."""
-    row = np.full((1, numbers.shape[1]), vertex, np.int32)
-    return np.concatenate([row, numbers] if before else [numbers, row])
-
-
 def triangles(numbers: IntArray) -> IntArray:
     """Two triangles for each square of a table of vertex numbers; where a square has shrunk to a triangle, one.
 
@@ -45,6 +39,32 @@ def triangles(numbers: IntArray) -> IntArray:
     first, second, third = faces.T
     whole = (first != second) & (second != third) & (third != first)
     return np.ascontiguousarray(faces[whole], np.int32)
+
+
+def closed_grid(rows: int, columns: int) -> IntArray:
+    """Faces of a grid that closes up in both directions."""
+    return triangles(looped(looped(table(rows, columns), 0), 1))
+
+
+def shaken(count: int, jitter: float, seed: int) -> FloatArray:
+    """Random shifts (count, 2), uniform in [-jitter, jitter], in steps of a grid; below 1/2 no two vertices pass."""
+    demand(0 <= jitter < 0.5, f"jitter must be at least 0 and below 0.5, not {jitter!r}")
+    demand(seed >= 0, f"seed must not be negative, not {seed!r}")
+    return np.random.default_rng(seed).uniform(-jitter, jitter, (count, 2))
+
+
+def revolve(radius: FloatArray, height: FloatArray, columns: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """A profile (radius, height), upwards, turned about the z axis; an end of radius zero is one vertex, a pole.
+
+    Returns points, faces (normal away from the axis) and the place in the profile that each vertex stands on.
+    """
+    sides = np.where(radius > 0, columns, 1)
+    row = np.repeat(np.arange(len(radius)), sides)
+    start = np.cumsum(sides) - sides
+    numbers = start[:, None] + np.where(radius[:, None] > 0, np.arange(columns), 0)
+    phi = 2 * np.pi * (np.arange(len(row)) - start[row]) / columns
+    points = np.stack([radius[row] * np.cos(phi), radius[row] * np.sin(phi), height[row]], axis=1)
+    return points, triangles(looped(numbers.astype(np.int32), 1).T), row.astype(np.int32)
 
 
 def rings_for(size: int, *, least: int = 2) -> int:

@@ -7,9 +7,10 @@ import math
 import numpy as np
 
 from .catalogue import sample
-from .curvature import constant
+from .curvature import constant, of_quadric
 from .facts import orientable
-from .model import FloatArray, IntArray, Sample, demand_positive
+from .grids import revolve, split
+from .model import FloatArray, IntArray, Sample, demand, demand_positive
 from .polyhedra import icosahedron_corners
 
 
@@ -20,9 +21,71 @@ from .polyhedra import icosahedron_corners
 def icosphere(*, size: int = 1000, radius: float = 1.0) -> Sample:
     """10 f^2 + 2 vertices; corners and edges of the icosahedron are shared by number, never by position."""
     demand_positive(size=size, radius=radius)
-    frequency = max(1, round(math.sqrt(max(size - 2, 1) / 10)))
-    directions, faces = icosahedral_directions(frequency)
+    return _sphere(*icosahedral_directions(_frequency(size)), radius)
+
+
+@sample(
+    summary="a sphere: convex hull of random points, triangles of every shape",
+    exact="Every vertex lies on the sphere: K = 1/radius^2, H = 2/radius; total curvature 4 pi, Willmore energy 16 pi.",
+)
+def irregular_sphere(*, size: int = 1000, radius: float = 1.0, seed: int = 0) -> Sample:
+    """As many vertices as asked for, independent and uniformly distributed."""
+    demand_positive(radius=radius)
+    return _sphere(*_random_directions(size, seed), radius)
+
+
+@sample(
+    summary="a sphere: meridians and parallels, with two poles",
+    exact="Every vertex lies on the sphere: K = 1/radius^2, H = 2/radius; total curvature 4 pi, Willmore energy 16 pi.",
+)
+def uv_sphere(*, size: int = 1000, radius: float = 1.0) -> Sample:
+    """Twice as many meridians as steps from pole to pole; the poles are single vertices."""
+    demand_positive(size=size, radius=radius)
+    rows, columns = split(size - 2, 0.5, least=2)
+    polar = np.pi * np.arange(rows + 2) / (rows + 1)
+    across = np.sin(polar)
+    across[[0, -1]] = 0
+    directions, faces, _ = revolve(across, -np.cos(polar), max(columns, 3))
     return _sphere(directions, faces, radius)
+
+
+@sample(
+    summary="an ellipsoid with three axes: a regular sphere, stretched",
+    exact="Every vertex lies on the ellipsoid: its curvatures from the implicit equation; area and H_theta by Carlson's R_G.",
+)
+def ellipsoid(*, size: int = 1000, a: float = 1.0, b: float = 0.8, c: float = 0.6) -> Sample:
+    """The icosphere of that size with half axes a, b, c."""
+    demand_positive(size=size)
+    return _ellipsoid(*icosahedral_directions(_frequency(size)), (a, b, c))
+
+
+@sample(
+    summary="an ellipsoid with three axes: an irregular sphere, stretched",
+    exact="Every vertex lies on the ellipsoid: its curvatures from the implicit equation; area and H_theta by Carlson's R_G.",
+)
+def irregular_ellipsoid(*, size: int = 1000, a: float = 1.0, b: float = 0.8, c: float = 0.6, seed: int = 0) -> Sample:
+    """The irregular sphere of that size with half axes a, b, c."""
+    return _ellipsoid(*_random_directions(size, seed), (a, b, c))
+
+
+def _frequency(size: int) -> int:
+    return max(1, round(math.sqrt(max(size - 2, 1) / 10)))
+
+
+def _random_directions(size: int, seed: int) -> tuple[FloatArray, IntArray]:
+    """Random unit vectors and the outward faces of their convex hull."""
+    from scipy.spatial import ConvexHull
+
+    demand(size >= 10, f"size must be at least 10, not {size!r}, or random points need not surround the centre")
+    demand(seed >= 0, f"seed must not be negative, not {seed!r}")
+    directions = np.random.default_rng(seed).standard_normal((size, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    faces = ConvexHull(directions).simplices.astype(np.int32)
+    demand(len(faces) == 2 * size - 4, f"with seed {seed} two points fall together; take another seed")
+    a, b, c = (directions[corner] for corner in faces.T)
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a - directions.mean(axis=0)) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    return directions, faces
 
 
 def icosahedral_directions(frequency: int) -> tuple[FloatArray, IntArray]:
@@ -75,3 +138,19 @@ def _sphere(directions: FloatArray, faces: IntArray, radius: float) -> Sample:
     }
     exact = constant(len(directions), 1 / radius, 1 / radius)
     return Sample(directions * radius, faces, exact, orientable(convex=True), limit)
+
+
+def _ellipsoid(directions: FloatArray, faces: IntArray, axes: tuple[float, float, float]) -> Sample:
+    from scipy.special import elliprg
+
+    a, b, c = axes
+    demand_positive(a=a, b=b, c=c)
+    points = directions * np.array(axes)
+    limit = {
+        "area": 4 * math.pi * float(elliprg((a * b) ** 2, (b * c) ** 2, (c * a) ** 2)),
+        "volume": 4 / 3 * math.pi * a * b * c,
+        "K": 4 * math.pi,
+        "H_theta": 8 * math.pi * float(elliprg(a**2, b**2, c**2)),
+    }
+    exact = of_quadric((a**-2, b**-2, c**-2), points)
+    return Sample(points, faces, exact, orientable(convex=True), limit)
