@@ -1,0 +1,153 @@
+"""Values to colours: a map for signed and one for other columns, with a range that outliers cannot spoil."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import UsageError
+
+DIVERGING, SEQUENTIAL = "crameri:vik", "crameri:batlow"
+# An odd number, so that 0 in a symmetric range has the middle colour; every second one is a map's own of 256.
+_STEPS = 511
+# For undefined values: mid grey, or what is as far from a map that holds greys itself.
+_UNDEFINED = ((128, 128, 128), (255, 0, 255), (0, 255, 0))
+_APART = 16
+
+
+@dataclass(frozen=True)
+class ColorScale:
+    """Colours of the vertices and what a legend needs to explain them.
+
+    rgb: (V, 3) uint8. low, high: values at the ends of the map, None when no value is defined.
+    gradient: (511, 3) uint8, the map from low to high. undefined: the colour of nulls, which is not in the map.
+    clipped_below, clipped_above, nulls: how many values lie outside the range or are undefined.
+    """
+
+    rgb: NDArray[np.uint8]
+    low: float | None
+    high: float | None
+    cmap: str
+    gradient: NDArray[np.uint8]
+    undefined: tuple[int, int, int]
+    clipped_below: int
+    clipped_above: int
+    nulls: int
+
+
+def colorize(
+    values: NDArray[np.float64],
+    *,
+    cmap: str | None = None,
+    value_range: str | None = None,
+    signed: bool = False,
+    ignore: NDArray[np.bool_] | None = None,
+) -> ColorScale:
+    """Colour one value per vertex; NaN is undefined and gets a colour that the map does not hold.
+
+    value_range: `LO:HI`, or `pNN` for the central NN % of the values (signed: symmetric about 0, the NN-th percentile
+    of their size). Default: 2nd to 98th percentile; signed: symmetric about 0, the 98th percentile of their size.
+    ignore: (V,) values that do not help to choose the range, unless there are no others.
+    Errors: UsageError for an unknown map, with the nearest names, and for a range that is none.
+    """
+    name = cmap if cmap is not None else DIVERGING if signed else SEQUENTIAL
+    gradient = _gradient(name)
+    undefined = _undefined(gradient)
+    low, high = _range(values, value_range, signed, ignore)
+    nulls = np.isnan(values)
+    rgb = np.empty((len(values), 3), np.uint8)
+    below = above = 0
+    if low is not None and high is not None:
+        rgb[:] = np.take(gradient, _positions(values, low, high), axis=0)
+        below, above = int((values < low).sum()), int((values > high).sum())
+    rgb[nulls] = undefined
+    return ColorScale(rgb, low, high, name, gradient, undefined, below, above, int(nulls.sum()))
+
+
+def _positions(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.intp]:
+    """The place of each value in the gradient; in the middle where the range is a single value."""
+    # Halves, because the width of a range may be more than a double holds.
+    width = high / 2 - low / 2
+    if width == 0:
+        place = np.select([values < low, values > high], [0.0, 1.0], 0.5)
+    else:
+        place = (np.clip(values, low, high) / 2 - low / 2) / width
+    steps: NDArray[np.intp] = np.nan_to_num(np.rint(place * (_STEPS - 1))).astype(np.intp)
+    return steps
+
+
+def _range(
+    values: NDArray[np.float64], value_range: str | None, signed: bool, ignore: NDArray[np.bool_] | None
+) -> tuple[float | None, float | None]:
+    low, high, central = parse_range(value_range)
+    if low is not None:
+        return low, high
+    defined = np.isfinite(values)
+    chosen = defined if ignore is None else defined & ~ignore
+    if not chosen.any():
+        chosen = defined
+    sample = values[chosen]
+    if not len(sample):
+        return None, None
+    # A power of two takes the largest doubles out of the interpolation's reach and changes no digit.
+    scale = 0.25 if np.abs(sample).max() > 1e300 else 1.0
+    if signed:
+        share = 98.0 if central is None else central
+        size = float(np.percentile(np.abs(sample) * scale, share)) / scale
+        return -size, size
+    share = 96.0 if central is None else central
+    ends = np.percentile(sample * scale, [50 - share / 2, 50 + share / 2]) / scale
+    return float(ends[0]), float(ends[1])
+
+
+def parse_range(value_range: str | None) -> tuple[float | None, float | None, float | None]:
+    """What `--range` means: (low, high, None) for LO:HI, (None, None, percent) for pNN, all None for the default."""
+    if value_range is None:
+        return None, None, None
+    text = value_range.strip()
+    problem = f"--range {value_range}: expected LO:HI with LO < HI, as -1:1, or pNN with 0 < NN <= 100, as p95"
+    try:
+        if re.match("[pP]", text):
+            percent = float(text[1:])
+            if not 0 < percent <= 100:
+                raise UsageError(problem)
+            return None, None, percent
+        low, high = map(float, text.split(":"))
+    except ValueError:
+        raise UsageError(problem) from None
+    if not (np.isfinite([low, high]).all() and low < high):
+        raise UsageError(problem)
+    return low, high, None
+
+
+@lru_cache(maxsize=8)
+def _gradient(name: str) -> NDArray[np.uint8]:
+    """The colours of a map by its name in the `cmap` catalogue; a trailing `_r` reverses it."""
+    from cmap import Catalog, Colormap
+
+    catalog, plain = Catalog(), name.strip()
+    forward = plain[:-2] if plain.lower().endswith("_r") else plain
+    try:
+        # The full name, because a short one that two collections share is not taken without a word on stderr.
+        chosen = Colormap(catalog.resolve(forward))
+    except KeyError:
+        names = {key.lower(): key for key in catalog}
+        near = difflib.get_close_matches(forward.lower(), names, n=4, cutoff=0.5)
+        guess = f"; nearest are {', '.join(names[key] for key in near)}" if near else ""
+        raise UsageError(f"--cmap {name}: no such colour map{guess}") from None
+    colors = (chosen if forward == plain else chosen.reversed()).lut(_STEPS)
+    gradient: NDArray[np.uint8] = np.rint(colors[:, :3] * 255).astype(np.uint8)
+    gradient.flags.writeable = False
+    return gradient
+
+
+def _undefined(gradient: NDArray[np.uint8]) -> tuple[int, int, int]:
+    for color in _UNDEFINED:
+        if np.abs(gradient.astype(np.int16) - color).max(axis=1).min() >= _APART:
+            return color
+    return _UNDEFINED[0]

@@ -1,0 +1,61 @@
+"""Wavefront OBJ: positions that read back to the same doubles, colours behind them, faces as loaded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, BinaryIO
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from .ply import Polygons
+from .text import blocks, lines, numbers, without, write_lines
+
+# k / 255 at four digits: enough to read back as the same byte.
+_SHARES = np.round(np.arange(256) / 255, 4)
+
+
+def write_obj(
+    stream: BinaryIO,
+    points: NDArray[np.float64],
+    faces: NDArray[np.integer[Any]],
+    *,
+    polygons: Polygons | None = None,
+    vertex_colors: NDArray[np.uint8] | None = None,
+    comments: Iterable[str] = (),
+) -> None:
+    """Write `v x y z` or `v x y z r g b` with colours from 0 to 1, then `f` records counted from 1.
+
+    points (V, 3); faces (F, 3), or instead of them polygons: (corner indices one after the other, corners of each).
+    OBJ holds no further properties.
+    """
+    for comment in comments:
+        stream.write(f"# {' '.join(comment.split())}\n".encode())
+    for rows in blocks(len(points)):
+        columns: dict[str, pl.Series | pl.Expr] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}
+        if vertex_colors is not None:
+            columns |= {name: numbers(_SHARES[vertex_colors[rows, k]]) for k, name in enumerate("rgb")}
+        write_lines(stream, {"v": pl.lit("v"), **columns})
+    if polygons is None:
+        for rows in blocks(len(faces)):
+            part = faces[rows].astype(np.int64) + 1
+            write_lines(stream, {"f": pl.lit("f"), **{name: numbers(part[:, k]) for k, name in enumerate("abc")}})
+    else:
+        _write_polygons(stream, *polygons)
+
+
+def _write_polygons(stream: BinaryIO, corners: NDArray[np.integer[Any]], sizes: NDArray[np.integer[Any]]) -> None:
+    """One line per corner, `f` before the first of each polygon; then a line end before a blank is taken out."""
+    starts = np.zeros(len(corners), np.bool_)
+    starts[(np.cumsum(sizes) - sizes)[sizes > 0]] = True
+    for rows in blocks(len(corners)):
+        letter = numbers(starts[rows]).replace_strict([True, False], ["f", None], return_dtype=pl.String)
+        text = lines({"f": letter, "corner": numbers(corners[rows].astype(np.int64) + 1)})
+        # The line end of a block's last corner may go as well: it is written before the next block instead.
+        body = without(text[:-1], b"\n", b" ")
+        if rows.start and starts[rows.start]:
+            stream.write(b"\n")
+        stream.write(body.data)
+    if len(corners):
+        stream.write(b"\n")
