@@ -28,7 +28,7 @@ class MeshFile:
     vertex_properties, polygon_properties: further per-element scalars of a PLY file by name, in file order.
     polygon_labels: `groups`, `objects`, `materials` of an OBJ file, where it has any.
     polylines: vertex indices of each OBJ `l` record.
-    welded_to: (V,) the row that holds the values of a merged row, -1 for a row that holds its own; None without welding.
+    welded_to: (V,) the row that holds the values of a merged row, -1 for one that holds its own; None without welding.
     path, sha256: where the bytes came from (`-` for a stream) and their hash, None for arrays made in memory.
     notices: what was accepted but should be said.
     """

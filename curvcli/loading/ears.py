@@ -1,0 +1,70 @@
+"""Triangles of one simple polygon in the plane, by cutting off ears."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+_TESTS_PER_CORNER = 20_000
+
+
+def clip_ears(p: NDArray[np.float64]) -> tuple[NDArray[np.intp], bool]:
+    """Triangles (k - 2, 3) of a polygon p (2, k) that runs counter-clockwise, and whether all of them are ears.
+
+    An ear is a convex corner whose triangle holds no other corner; only reflex corners need to be looked at, and of
+    these only those between the left and the right end of the triangle. A polygon that crosses itself, or takes more
+    than a bounded number of tests per corner, is finished as a fan.
+    """
+    n = p.shape[1]
+    x, y = p
+    x_list, y_list = x.tolist(), y.tolist()
+    before, after = [*range(-1, n - 1)], [*range(1, n + 1)]
+    before[0], after[-1] = n - 1, 0
+
+    def turn(a: int, b: int, c: int) -> float:
+        ax, ay = x_list[a], y_list[a]
+        return float((x_list[b] - ax) * (y_list[c] - ay) - (y_list[b] - ay) * (x_list[c] - ax))
+
+    order = np.argsort(x, kind="stable")
+    rank = np.empty(n, np.intp)
+    rank[order] = np.arange(n)
+    sorted_x, sorted_y = x[order], y[order]
+    reflex = np.array([turn(before[b], b, after[b]) <= 0 for b in range(n)])[order]
+    tests = 0
+
+    def is_ear(a: int, b: int, c: int) -> bool:
+        nonlocal tests
+        if turn(a, b, c) <= 0:
+            return False
+        xs, ys = (x_list[a], x_list[b], x_list[c]), (y_list[a], y_list[b], y_list[c])
+        lo, hi = np.searchsorted(sorted_x, (min(xs), np.nextafter(max(xs), np.inf))).tolist()
+        near = lo + np.flatnonzero(reflex[lo:hi])
+        tests += hi - lo
+        qx, qy = sorted_x[near], sorted_y[near]
+        inside = np.ones(len(near), np.bool_)
+        for i, j in ((0, 1), (1, 2), (2, 0)):
+            inside &= (xs[j] - xs[i]) * (qy - ys[i]) - (ys[j] - ys[i]) * (qx - xs[i]) >= 0
+        for i in range(3):  # the corners themselves, and others at the same place: polygons that touch themselves
+            inside &= (qx != xs[i]) | (qy != ys[i])
+        return not inside.any()
+
+    cut: list[tuple[int, int, int]] = []
+    b, misses, left = 0, 0, n
+    while left > 3 and misses <= left and tests <= _TESTS_PER_CORNER * n:
+        a, c = before[b], after[b]
+        if not is_ear(a, b, c):
+            b, misses = c, misses + 1
+            continue
+        cut.append((a, b, c))
+        after[a], before[c] = c, a
+        left, misses = left - 1, 0
+        reflex[rank[b]] = False
+        for q in (a, c):
+            reflex[rank[q]] = turn(before[q], q, after[q]) <= 0
+        b = after[c]  # not c: cutting at every second corner leaves fewer slivers
+    simple = left <= 3
+    while left >= 3:
+        cut.append((before[b], b, after[b]))
+        after[before[b]], before[after[b]] = after[b], before[b]
+        b, left = after[b], left - 1
+    return np.array(cut, np.intp).reshape(-1, 3), simple

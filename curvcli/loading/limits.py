@@ -1,0 +1,11 @@
+"""Limits that are checked before anything large is allocated."""
+
+from __future__ import annotations
+
+from ..errors import InputError
+
+
+def check_faces(found: int, allowed: int | None) -> None:
+    """Refuses more faces than allowed (None: any number)."""
+    if allowed is not None and found > allowed:
+        raise InputError(f"{found} faces found, at most {allowed} allowed", hint="--max-faces sets the limit")

@@ -1,0 +1,97 @@
+"""The lines of an OBJ file by kind, tidied where they have to be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from .text import BLANK, NEWLINE, Records, Untidy, line_starts, pick_lines, read_records, tidy
+
+
+@dataclass(frozen=True)
+class ObjLines:
+    """An OBJ text, its line starts, the first two bytes of each line, and the line's number in the file (from 0).
+
+    tidied: whether the text is known to be tidy, so that what cannot be read is an error.
+    """
+
+    data: bytes
+    starts: NDArray[np.int64]
+    kind: NDArray[np.uint16]
+    numbers: NDArray[np.int64] | None
+    tidied: bool
+
+    def of(self, letter: str) -> NDArray[np.bool_]:
+        """Which lines begin with a keyword of one letter."""
+        lines: NDArray[np.bool_] = self.kind == ord(letter) + 256 * BLANK
+        alone = self.kind == ord(letter) + 256 * NEWLINE
+        return lines | alone if alone.any() else lines
+
+    def place(self, line: int) -> str:
+        """The line as an error names it."""
+        return f"line {int(line if self.numbers is None else self.numbers[line]) + 1}"
+
+    def text(self, line: int) -> bytes:
+        """One line without its end."""
+        return self.data[self.starts[line] : self.starts[line + 1]].strip()
+
+    def records(self, lines: NDArray[np.bool_], dtype: type[np.generic], expected: str) -> Records:
+        """The numbers in these lines.
+
+        Errors: Untidy if the text may have to be tidied first, InputError with the line if that does not help.
+        """
+        try:
+            return read_records(pick_lines(self.data, self.starts, lines), dtype)
+        except Untidy as untidy:
+            if not self.tidied:
+                raise
+            line = int(np.flatnonzero(lines)[untidy.row])
+            token = untidy.token.decode("utf-8", "backslashreplace")
+            raise InputError(f"`{token}` found, {expected} expected", place=self.place(line)) from None
+
+
+def split_lines(data: bytes, numbers: NDArray[np.int64] | None = None, *, tidied: bool = False) -> ObjLines:
+    """The lines of a text that ends with a line end."""
+    text = np.frombuffer(data, np.uint8)
+    starts = line_starts(text)
+    first, second = text[starts[:-1]], text.take(starts[:-1] + 1, mode="clip")
+    kind = second.astype(np.uint16)
+    kind <<= np.uint16(8)
+    kind |= first
+    if not tidied and ((first == BLANK).any() or (b"\\" in data and b"\\\n" in data)):
+        raise Untidy
+    return ObjLines(data, starts, kind, numbers, tidied)
+
+
+def tidy_lines(data: bytes) -> ObjLines:
+    """The lines without comments and with continued lines joined."""
+    data = tidy(data)
+    if b"#" in data:
+        data = tidy(_without_comments(data))
+    if b"\\\n" not in data:
+        return split_lines(data, tidied=True)
+    text = np.frombuffer(data, np.uint8)
+    ends = np.flatnonzero(text == NEWLINE)
+    joined = (text[np.maximum(ends, 1) - 1] == ord("\\")) & (ends > 0)
+    numbers = np.flatnonzero(np.concatenate(([True], ~joined[:-1])))
+    data = tidy(data.replace(b"\\\n", b" "))
+    return split_lines(data if data.endswith(b"\n") else data + b"\n", numbers, tidied=True)
+
+
+def _without_comments(data: bytes) -> bytes:
+    """Blanks instead of comments: from a `#` at the start of a word, or anywhere in a record of numbers."""
+    text = np.frombuffer(data, np.uint8).copy()
+    starts = line_starts(text)
+    marks = np.flatnonzero(text == ord("#"))
+    line = np.searchsorted(starts, marks, side="right") - 1
+    in_numbers = np.isin(text[starts[line]], np.frombuffer(b"vfl", np.uint8))
+    begins = (text[np.maximum(marks, 1) - 1] <= BLANK) | (marks == 0) | in_numbers
+    line, which = np.unique(line[begins], return_index=True)
+    inside = np.zeros(len(text), np.int8)
+    inside[marks[begins][which]] = 1
+    inside[starts[line + 1] - 1] -= 1
+    text[np.cumsum(inside, dtype=np.int8).view(np.bool_)] = BLANK
+    return bytes(text)

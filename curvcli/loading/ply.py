@@ -1,0 +1,139 @@
+"""PLY, ASCII and binary of either byte order: vertices, faces and triangle strips in file order."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError, Notice
+from .limits import check_faces
+from .model import MeshFile
+from .ply_header import Element, Header, parse_header
+from .ply_rows import Columns, read_binary_rows
+from .ply_text import read_text_rows
+
+_CORNERS = ("vertex_indices", "vertex_index")
+
+
+def parse_ply(data: bytes, *, max_faces: int | None = None) -> MeshFile:
+    """The content of a PLY file.
+
+    Scalar properties of vertices and faces are kept, lists other than the corners and other elements are not.
+    Triangle strips (`tristrips`, -1 begins a new strip) become triangles of alternating winding.
+    Errors: InputError with the line, or the element and row, that cannot be read.
+    """
+    header = parse_header(data)
+    by_name = {element.name: element for element in header.elements}
+    vertex = by_name.get("vertex")
+    scalars = {p.name for p in vertex.properties if p.length is None} if vertex else set()
+    if not {"x", "y", "z"} <= scalars:
+        raise InputError("no vertex element with the properties x, y, z found", place="header")
+    for name in ("face", "tristrips"):
+        if name in by_name and by_name[name].count:
+            _corner_property(by_name[name])
+    check_faces(by_name["face"].count if "face" in by_name else 0, max_faces)
+    notices: list[Notice] = []
+    content = (read_text_rows if header.ascii else _read_binary)(data, header, notices)
+    return _mesh(content, by_name, notices)
+
+
+def _corner_property(element: Element) -> str:
+    for p in element.properties:
+        if p.name in _CORNERS and p.length is not None:
+            if p.type.kind == "f":
+                raise InputError(f"`{p.name}` holds fractions, an integer type expected", place="header")
+            return p.name
+    raise InputError(f"element `{element.name}` without a list `vertex_indices` found", place="header")
+
+
+def _read_binary(data: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
+    offset = header.body
+    content = {}
+    for element in header.elements:
+        content[element.name], offset = read_binary_rows(data, offset, element)
+    if offset < len(data):
+        notices.append(Notice("trailing_data", len(data) - offset, "bytes after the announced elements are ignored"))
+    return content
+
+
+def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: list[Notice]) -> MeshFile:
+    vertex = content["vertex"].scalars
+    xyz = np.empty((3, elements["vertex"].count))
+    for k, name in enumerate("xyz"):
+        xyz[k] = vertex[name]
+    corners, sizes, properties = np.empty(0, np.int32), np.empty(0, np.int64), {}
+    if "face" in elements and elements["face"].count:
+        faces = content["face"]
+        sizes, indices = faces.lists[_corner_property(elements["face"])]
+        corners = _checked(indices, sizes, "face", xyz.shape[1])
+        properties = {name: _native(values) for name, values in faces.scalars.items()}
+        corners, sizes, properties = _without_short(corners, sizes, properties, notices)
+    if "tristrips" in elements and elements["tristrips"].count:
+        lengths, indices = content["tristrips"].lists[_corner_property(elements["tristrips"])]
+        _checked(indices, lengths, "tristrips", xyz.shape[1], lowest=-1)
+        strips = strip_triangles(indices, lengths)
+        corners, properties = np.concatenate((corners, strips.reshape(-1))), {}
+        sizes = np.concatenate((sizes, np.full(len(strips), 3)))
+    if not len(corners):
+        raise InputError("no faces", hint="a surface needs a `face` or `tristrips` element with at least one face")
+    return MeshFile(
+        "ply",
+        xyz,
+        corners,
+        None if (sizes == 3).all() else sizes.astype(np.int32),
+        vertex_properties={name: _native(values) for name, values in vertex.items() if name not in ("x", "y", "z")},
+        polygon_properties=properties,
+        notices=tuple(notices),
+    )
+
+
+def _native(values: NDArray[Any]) -> NDArray[np.generic]:
+    return np.ascontiguousarray(values, values.dtype.newbyteorder("="))
+
+
+def _checked(
+    indices: NDArray[Any], sizes: NDArray[np.int64], name: str, vertices: int, lowest: int = 0
+) -> NDArray[np.int32]:
+    """The indices, all of them within the list of vertices."""
+    if len(indices) and (int(indices.min()) < lowest or int(indices.max()) >= vertices):
+        wrong = int(np.flatnonzero((indices < lowest) | (indices >= vertices))[0])
+        row = int(np.searchsorted(np.cumsum(sizes), wrong, side="right"))
+        raise InputError(
+            f"vertex index {int(indices[wrong])} found, 0 to {vertices - 1} expected", place=f"{name} {row}"
+        )
+    return np.ascontiguousarray(indices, np.int32)
+
+
+def _without_short(
+    corners: NDArray[np.int32], sizes: NDArray[np.int64], properties: dict[str, NDArray[Any]], notices: list[Notice]
+) -> tuple[NDArray[np.int32], NDArray[np.int64], dict[str, NDArray[Any]]]:
+    keep = sizes >= 3
+    if keep.all():
+        return corners, sizes, properties
+    short = np.flatnonzero(~keep)
+    message = "faces with fewer than 3 corners are dropped"
+    notices.append(Notice("short_faces", len(short), message, None, tuple(short[:5].tolist())))
+    return corners[np.repeat(keep, sizes)], sizes[keep], {name: v[keep] for name, v in properties.items()}
+
+
+def strip_triangles(indices: NDArray[Any], lengths: NDArray[np.int64]) -> NDArray[np.int32]:
+    """The triangles (n, 3) of strips: every three successive indices, every second triangle turned round.
+
+    A strip ends where its row ends and at each -1.
+    """
+    ends = np.cumsum(lengths)
+    row_start = np.zeros(len(indices) + 1, np.bool_)
+    row_start[ends - lengths] = True
+    cut = indices == -1
+    begins = row_start[:-1].copy()
+    begins[1:] |= cut[:-1]
+    begin = np.maximum.accumulate(np.where(begins, np.arange(len(indices)), 0))
+    third = np.arange(2, len(indices))
+    third = third[(begin[2:] <= third - 2) & ~cut[2:]]
+    odd = (third - begin[third]) % 2 == 1
+    a, b = third - 2, third - 1
+    return np.stack([indices[np.where(odd, b, a)], indices[np.where(odd, a, b)], indices[third]], axis=1).astype(
+        np.int32
+    )

@@ -1,0 +1,130 @@
+"""The header of a PLY file: its elements and their properties."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+
+_TYPES = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "i2",
+    "ushort": "u2",
+    "int": "i4",
+    "uint": "u4",
+    "float": "f4",
+    "double": "f8",
+    "int8": "i1",
+    "uint8": "u1",
+    "int16": "i2",
+    "uint16": "u2",
+    "int32": "i4",
+    "uint32": "u4",
+    "int64": "i8",
+    "uint64": "u8",
+    "float32": "f4",
+    "float64": "f8",
+}
+_ORDER = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
+_MAGIC = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
+PLY_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]*[\r\n]")
+
+
+@dataclass(frozen=True)
+class Property:
+    """A property of an element; `length` is the type of the count of a list, None for a scalar."""
+
+    name: str
+    type: np.dtype[np.generic]
+    length: np.dtype[np.generic] | None = None
+
+
+@dataclass(frozen=True)
+class Element:
+    """So many rows of the same properties."""
+
+    name: str
+    count: int
+    properties: tuple[Property, ...]
+
+    @property
+    def least_bytes(self) -> int:
+        """The fewest bytes a binary row takes."""
+        return sum((p.length or p.type).itemsize for p in self.properties)
+
+
+@dataclass(frozen=True)
+class Header:
+    """elements in file order, whether the body is text, where it begins, and the lines before it."""
+
+    elements: tuple[Element, ...]
+    ascii: bool
+    body: int
+    lines: int
+
+
+def parse_header(data: bytes) -> Header:
+    """The header of a PLY file.
+
+    Errors: InputError with the line of a statement that cannot be read.
+    """
+    start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
+    magic = _MAGIC.match(data, start)
+    if not magic:
+        raise InputError("no PLY header found; a first line `ply` expected", place="line 1")
+    newline = magic[1]
+    end = re.compile(rb"[\r\n]end_header[ \t]*" + re.escape(newline)).search(data, magic.end() - 1)
+    if not end:
+        raise InputError("no `end_header` found, expected at the end of the PLY header")
+    lines = data[magic.end() : end.start() + 1].decode("latin-1").replace(newline.decode(), "\n").splitlines()
+    order: str | None = None
+    elements: list[tuple[str, int, list[Property]]] = []
+    for number, line in enumerate(lines, 2):
+        words = line.split()
+        place = f"line {number}"
+        match words:
+            case [] | ["comment" | "obj_info", *_]:
+                continue
+            case ["format", str(name), *_]:
+                if name not in _ORDER:
+                    raise InputError(f"format `{name}` found, one of {', '.join(_ORDER)} expected", place=place)
+                order = name
+            case ["element", str(name), str(count)]:
+                elements.append((name, _count(count, place), []))
+            case ["property", "list", str(length), str(kind), str(name)] if elements and order:
+                length_type = _type(length, order, place)
+                if length_type.kind == "f":
+                    raise InputError(f"list length of type `{length}` found, an integer type expected", place=place)
+                elements[-1][2].append(Property(name, _type(kind, order, place), length_type))
+            case ["property", str(kind), str(name)] if elements and order:
+                elements[-1][2].append(Property(name, _type(kind, order, place)))
+            case _:
+                raise InputError(f"`{line.strip()[:60]}` found, a PLY header statement expected", place=place)
+    if order is None:
+        raise InputError("no `format` found in the PLY header")
+    names = [name for name, _, _ in elements]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"element `{name}` announced twice", place="header")
+    return Header(
+        tuple(Element(name, count, tuple(properties)) for name, count, properties in elements),
+        order == "ascii",
+        end.end(),
+        len(lines) + 2,
+    )
+
+
+def _count(text: str, place: str) -> int:
+    if not re.fullmatch(r"\+?\d{1,18}", text, re.ASCII):
+        raise InputError(f"element count `{text[:40]}` found, a whole number expected", place=place)
+    return int(text)
+
+
+def _type(name: str, order: str, place: str) -> np.dtype[np.generic]:
+    if name not in _TYPES:
+        raise InputError(f"type `{name}` found, one of {', '.join(_TYPES)} expected", place=place)
+    return np.dtype(_ORDER[order] + _TYPES[name])

@@ -1,0 +1,160 @@
+"""The rows of the elements of an ASCII PLY file: one line each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError, Notice
+from .ply_header import Element, Header, Property
+from .ply_rows import Columns, empty_columns
+from .text import BLANK, NEWLINE, Untidy, drop_empty_lines, line_starts, plain_lines, read_columns, read_tokens, tidy
+
+
+def read_text_rows(data: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
+    """The columns of all elements.
+
+    Errors: InputError with the line of a row that cannot be read.
+    """
+    for element in header.elements:
+        if element.count * max(2 * len(element.properties), 1) - 1 > len(data) - header.body:
+            raise InputError(
+                f"{element.count} rows announced, more than the {len(data) - header.body} bytes that follow can hold",
+                place=element.name,
+            )
+    body = plain_lines(data[header.body :])
+    try:
+        return _read(body, header, notices, None)
+    except Untidy:
+        notices.clear()
+        body, numbers = drop_empty_lines(tidy(body))
+        return _read(body, header, notices, numbers)
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """The lines of one element: their text, the element, and the number (from 0) of its first line."""
+
+    text: bytes
+    element: Element
+    header_lines: int
+    first: int
+    numbers: NDArray[np.int64] | None
+
+    def place(self, row: int) -> str:
+        line = self.first + row
+        return f"line {self.header_lines + 1 + int(line if self.numbers is None else self.numbers[line])}"
+
+
+def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[np.int64] | None) -> dict[str, Columns]:
+    starts = line_starts(np.frombuffer(body, np.uint8))
+    line, content = 0, {}
+    for element in header.elements:
+        if line + element.count > len(starts) - 1:
+            if numbers is None:
+                raise Untidy
+            raise InputError(f"{element.count} rows announced, {len(starts) - 1 - line} found", place=element.name)
+        rows = _Rows(body[starts[line] : starts[line + element.count]], element, header.lines, line, numbers)
+        if element.count and element.properties:
+            content[element.name] = _same_layout(rows) or _any_layout(rows, notices)
+            line += element.count
+        else:
+            content[element.name] = empty_columns(element)
+    if body[starts[line] :].strip():
+        count = len(starts) - 1 - line
+        notices.append(Notice("trailing_data", count, "lines after the announced elements are ignored"))
+    return content
+
+
+def _same_layout(rows: _Rows) -> Columns | None:
+    """The columns of rows whose lists are as long as in the first row; None if they are not."""
+    words = rows.text[: rows.text.index(b"\n")].split()
+    layout, at = [], 0
+    for p in rows.element.properties:
+        length = 1
+        if p.length is not None:
+            if at >= len(words) or not words[at].isdigit():
+                return None
+            length = int(words[at])
+            at += 1
+        layout.append((at, length))
+        at += length
+    if at != len(words) or at > 64:
+        return None
+    whole = all(p.type.kind != "f" for p in rows.element.properties)
+    columns = read_columns(rows.text, at, np.int32 if whole else np.float64)
+    if columns is None:
+        return None
+    read = Columns()
+    for p, (at, length) in zip(rows.element.properties, layout, strict=True):
+        if p.length is None:
+            read.scalars[p.name] = _typed(columns[at], p)
+            continue
+        if not (columns[at - 1] == length).all():
+            return None
+        items = np.stack(columns[at : at + length], axis=1) if length else np.empty((rows.element.count, 0))
+        read.lists[p.name] = (np.full(rows.element.count, length), _typed(items.reshape(-1), p))
+    return read
+
+
+def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
+    """The columns of rows of any length."""
+    numbers, known = read_tokens(rows.text, np.float64)
+    text = np.frombuffer(rows.text, np.uint8)
+    separators = np.flatnonzero(text <= BLANK)
+    ends = np.flatnonzero(text[separators] == NEWLINE) + 1
+    if rows.numbers is None and (len(separators) != len(numbers) or not known.all()):
+        raise Untidy
+    if not known.all():
+        wrong = int(np.flatnonzero(~known)[0])
+        row = int(np.searchsorted(ends, wrong, side="right"))
+        begin = int(separators[wrong - 1]) + 1 if wrong else 0
+        token = rows.text[begin : int(separators[wrong])][:40].decode("utf-8", "backslashreplace")
+        raise InputError(f"`{token}` found, a number expected", place=rows.place(row))
+    at = np.concatenate(([0], ends[:-1]))
+    read = Columns()
+    padded = np.append(numbers, 0.0)
+    for p in rows.element.properties:
+        if p.length is None:
+            _require(rows, at < ends)
+            read.scalars[p.name] = _typed(padded[at], p)
+            at = at + 1
+            continue
+        _require(rows, at < ends)
+        length = padded[at]
+        wrong_length = np.flatnonzero(~((length >= 0) & (length == np.floor(length))))
+        if len(wrong_length):
+            row = int(wrong_length[0])
+            raise InputError(f"list length {length[row]:g} found, a whole number expected", place=rows.place(row))
+        _require(rows, at + 1 + length <= ends)
+        count = length.astype(np.int64)
+        inside = np.arange(int(count.sum())) + np.repeat(at + 1 - (np.cumsum(count) - count), count)
+        read.lists[p.name] = (count, _typed(numbers[inside], p))
+        at = at + 1 + count
+    extra = np.flatnonzero(at < ends)
+    if len(extra):
+        message = f"rows of element `{rows.element.name}` hold more values than announced, which are ignored"
+        hint = f"the first is {rows.place(int(extra[0]))}"
+        notices.append(Notice("extra_values", len(extra), message, hint, tuple(extra[:5].tolist())))
+    return read
+
+
+def _require(rows: _Rows, enough: NDArray[np.bool_]) -> None:
+    if not enough.all():
+        row = int(np.flatnonzero(~enough)[0])
+        if rows.numbers is None:
+            raise Untidy
+        raise InputError(f"too few values in a row of element `{rows.element.name}`", place=rows.place(row))
+
+
+def _typed(values: NDArray[Any], p: Property) -> NDArray[Any]:
+    """Whole numbers in the announced type if they fit, fractions as they are written (a double)."""
+    if p.type.kind == "f":
+        return values.astype(np.float64, copy=False)
+    kind = p.type.newbyteorder("=")
+    with np.errstate(invalid="ignore"):
+        typed = values.astype(kind, copy=False)
+    return typed if (typed == values).all() else values

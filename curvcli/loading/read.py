@@ -1,0 +1,103 @@
+"""From a file or a stream to its content, through trimesh: the one entrance."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from typing import Any, BinaryIO
+
+from ..errors import InputError, UsageError
+from .content import inflate, open_regular, read_limited, shown
+from .model import MeshFile
+from .recognise import FORMATS, format_of_name, recognise
+
+_PREFIX = "curvcli-"
+
+
+def read_mesh_file(
+    source: str | bytes | os.PathLike[Any] | BinaryIO,
+    *,
+    input_format: str | None = None,
+    weld: str | float = "auto",
+    max_faces: int | None = None,
+    max_bytes: int | None = None,
+) -> MeshFile:
+    """The content of a mesh file, in file order, with the hash of its bytes.
+
+    source: a path, or a binary stream (its path is reported as `-`). input_format: `obj`, `ply` or `stl` instead of
+    the suffix. weld: `auto` (exact for STL, none otherwise), `none`, `exact`, or a tolerance relative to the diagonal
+    of the bounding box. max_faces, max_bytes: refuse larger files.
+    Errors: InputError, one line that names the file, the place, what was found and what was expected.
+    """
+    if input_format is not None and input_format.lower() not in FORMATS:
+        raise UsageError(f"input format `{input_format}` is not known; {', '.join(FORMATS)} are")
+    path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
+    try:
+        mesh = _read(source, path, input_format and input_format.lower(), weld, max_faces, max_bytes)
+    except InputError as error:
+        place, hint = error.place and shown(error.place), error.hint and shown(error.hint)
+        raise InputError(shown(error.problem), path=shown(path), place=place, hint=hint) from None
+    return replace(mesh, path=shown(path))
+
+
+def _read(
+    source: str | bytes | os.PathLike[Any] | BinaryIO,
+    path: str,
+    wanted: str | None,
+    weld: str | float,
+    max_faces: int | None,
+    max_bytes: int | None,
+) -> MeshFile:
+    if isinstance(source, str | bytes | os.PathLike):
+        with open_regular(source, max_bytes) as file:
+            wanted = wanted or format_of_name(path)
+            raw = read_limited(file, max_bytes)
+    else:
+        raw = read_limited(source, max_bytes)
+    with ThreadPoolExecutor(2) as pool:
+        digest = pool.submit(lambda: hashlib.sha256(raw).hexdigest())
+        data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
+        kind, notices = recognise(data, wanted)
+        mesh = _through_trimesh(data, kind, weld=weld, max_faces=max_faces)
+        return replace(mesh, sha256=digest.result(), notices=(*notices, *mesh.notices))
+
+
+def _through_trimesh(data: bytes, kind: str, **options: Any) -> MeshFile:
+    """The mesh as trimesh hands it on. The stream has no name, so trimesh can resolve no reference to another file."""
+    from trimesh.exchange.load import load_scene, mesh_loaders
+
+    # A name of our own: importing curvcli changes nothing for other users of trimesh in this process.
+    mesh_loaders.setdefault(_PREFIX + kind, _load)
+    scene = load_scene(io.BytesIO(data), file_type=_PREFIX + kind, process=False, **options)
+    (mesh,) = scene.geometry.values()
+    content: MeshFile = mesh.metadata["curvcli"]
+    return content
+
+
+def _load(file_obj: BinaryIO, file_type: str, weld: str | float, max_faces: int | None, **_: Any) -> dict[str, Any]:
+    """A trimesh loader: the keyword arguments of a Trimesh, and the whole content of the file under its metadata."""
+    import numpy as np
+
+    from .weld import welded
+
+    mesh = welded(_parse(file_obj.read(), file_type.removeprefix(_PREFIX), weld, max_faces), weld)
+    # trimesh would turn corners into int64 and rows into columns; who wants a Trimesh builds it from the surface.
+    nothing = np.empty((0, 3))
+    return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": mesh}}
+
+
+def _parse(data: bytes, kind: str, weld: str | float, max_faces: int | None) -> MeshFile:
+    if kind == "obj":
+        from .obj import parse_obj
+
+        return parse_obj(data, max_faces=max_faces)
+    if kind == "ply":
+        from .ply import parse_ply
+
+        return parse_ply(data, max_faces=max_faces)
+    from .stl import parse_stl
+
+    return parse_stl(data, weld=weld != "none", max_faces=max_faces)

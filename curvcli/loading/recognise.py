@@ -1,0 +1,62 @@
+"""Which format a file has, by its name and by its content."""
+
+from __future__ import annotations
+
+import re
+
+from ..errors import InputError, Notice
+from .ply_header import PLY_SIGN
+from .stl import ASCII_SIGN, announced_size
+
+FORMATS = ("obj", "ply", "stl")
+"""The promised formats, which are also the suffixes; each may be followed by .gz."""
+
+_V_LINE = re.compile(rb"(?:^|[\r\n])[ \t]*v[ \t]+[-+.\d]\S*[ \t]+[-+.\d]")
+_F_LINE = re.compile(rb"(?:^|[\r\n])[ \t]*f[ \t]+-?\d+[\d/-]*[ \t]+-?\d")
+
+
+def format_of_name(path: str) -> str:
+    """The format that the suffix promises.
+
+    Errors: InputError for a suffix that is not promised.
+    """
+    name = path.lower().removesuffix(".gz")
+    suffix = name.rpartition("/")[2].rpartition("\\")[2].rpartition(".")[2] if "." in name else ""
+    if suffix in FORMATS:
+        return suffix
+    raise InputError(
+        f"suffix `.{suffix}` found, {', '.join('.' + name for name in FORMATS)} expected (each also with .gz)"
+        if suffix
+        else f"no suffix found, {', '.join('.' + name for name in FORMATS)} expected (each also with .gz)",
+        hint=f"--input-format {'|'.join(FORMATS)} reads it as such",
+    )
+
+
+def recognise(data: bytes, wanted: str | None) -> tuple[str, tuple[Notice, ...]]:
+    """The format of the content, and a notice where it is not the wanted one.
+
+    wanted: what the name says, None if it says nothing. Errors: InputError for content that cannot be recognised.
+    """
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") and (wanted or "obj") == "obj" and announced_size(data) != len(data):
+        raise InputError("UTF-16 text found, ASCII or UTF-8 expected", hint="convert it, for example with iconv")
+    if wanted and _bears_sign(data, wanted):
+        return wanted, ()
+    found = next((kind for kind in ("ply", "stl", "obj") if kind != wanted and _bears_sign(data, kind)), None)
+    if found is None:
+        if wanted is None:
+            raise InputError("content not recognised", hint=f"--input-format {'|'.join(FORMATS)} names the format")
+        return wanted, ()
+    if wanted is None:
+        return found, ()
+    message = f"the content is {found.upper()}, not {wanted.upper()} as its name says, and is read as such"
+    return found, (Notice("wrong_suffix", 1, message),)
+
+
+def _bears_sign(data: bytes, kind: str) -> bool:
+    if kind == "ply":
+        return bool(PLY_SIGN.match(data))
+    if kind == "stl":
+        if len(data) >= 84 and announced_size(data) == len(data):
+            return True
+        return bool(ASCII_SIGN.match(data)) and b"facet" in data[:65536].lower()
+    return bool(_V_LINE.search(data, 0, 1 << 20) and _F_LINE.search(data))

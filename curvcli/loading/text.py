@@ -1,0 +1,206 @@
+"""Text of a mesh file as lines and numbers, read column by column instead of line by line.
+
+A tidy text has single blanks between tokens and none at either end of a line. Most files are tidy as they are; the
+others are tidied once (`tidy`) after the quick reading has stumbled (`Untidy`).
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+BLANK, NEWLINE = 32, 10
+_BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
+_TOKEN_PER_LINE = bytes.maketrans(b" ", b"\n")
+SMALL = 1 << 16
+"""Texts up to this many bytes are read without polars: importing it would take longer than reading them."""
+
+
+class Untidy(Exception):  # noqa: N818 - a signal between readers, not a failure
+    """The quick reading met a text it cannot take as it stands; in a tidy text `row` (from 0) is at fault."""
+
+    def __init__(self, row: int = 0, token: bytes = b""):
+        self.row, self.token = row, token
+        super().__init__(row, token)
+
+
+@dataclass(frozen=True)
+class Records:
+    """Rows of numbers: `columns` where all have the same size, else `values`, one row after the other.
+
+    sizes: numbers per row, one int for all or (rows,) int64.
+    """
+
+    sizes: int | NDArray[np.int64]
+    columns: list[NDArray[Any]] | None = None
+    values: NDArray[Any] | None = None
+
+    def flat(self) -> NDArray[Any]:
+        """All numbers, one row after the other."""
+        if self.values is not None:
+            return self.values
+        assert self.columns is not None
+        rows = np.empty((len(self.columns[0]), len(self.columns)), self.columns[0].dtype)
+        for k, column in enumerate(self.columns):
+            rows[:, k] = column
+        return rows.reshape(-1)
+
+
+def plain_lines(data: bytes) -> bytes:
+    """The same text without byte-order mark, with LF line ends (also at the end) and with blanks as the only white
+    space."""
+    if data.startswith(b"\xef\xbb\xbf"):
+        data = data[3:]
+    if b"\r" in data:
+        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    if any(byte in data for byte in (b"\t", b"\0", b"\v", b"\f")):
+        data = data.translate(_BLANKS)
+    return data if data.endswith(b"\n") else data + b"\n"
+
+
+def tidy(data: bytes) -> bytes:
+    """The same lines with single blanks between tokens and none at the ends of a line."""
+    text = np.frombuffer(data, np.uint8)
+    keep = text != BLANK
+    keep[:-1] |= text[1:] > BLANK
+    text = text[keep]
+    indent = text == BLANK
+    indent[1:] &= text[:-1] == NEWLINE
+    return bytes(text[~indent] if indent.any() else text)
+
+
+def drop_empty_lines(data: bytes) -> tuple[bytes, NDArray[np.int64]]:
+    """The lines of a tidy text that are not empty, and the number (from 0) that each had."""
+    text = np.frombuffer(data, np.uint8)
+    empty = text == NEWLINE
+    ends = np.flatnonzero(empty)
+    empty[1:] &= text[:-1] == NEWLINE
+    return bytes(text[~empty]), np.flatnonzero(~empty[ends])
+
+
+def line_starts(text: NDArray[np.uint8]) -> NDArray[np.int64]:
+    """Where each line begins, and at the end where the next one would."""
+    ends = np.flatnonzero(text == NEWLINE)
+    starts = np.empty(len(ends) + 1, np.int64)
+    starts[0] = 0
+    np.add(ends, 1, out=starts[1:])
+    return starts
+
+
+def pick_lines(data: bytes, starts: NDArray[np.int64], wanted: NDArray[np.bool_]) -> bytes:
+    """The wanted lines one after the other, with their line ends."""
+    edges = np.flatnonzero(np.diff(wanted.view(np.int8), prepend=0, append=0))
+    if len(edges) == 2 and edges[0] == 0 and edges[1] == len(wanted):
+        return data
+    if len(edges) <= 2048:
+        bounds = starts[edges].tolist()
+        return b"".join(data[a:b] for a, b in zip(bounds[::2], bounds[1::2], strict=True))
+    return bytes(np.frombuffer(data, np.uint8)[: starts[-1]][np.repeat(wanted, np.diff(starts))])
+
+
+def read_columns(
+    data: bytes, columns: int, dtype: type[np.generic], *, skip: int = 0
+) -> list[NDArray[np.generic]] | None:
+    """The numbers of lines that all hold `skip` words and then `columns` numbers; None if some line does not.
+
+    Decimal fractions are rounded correctly. dtype: np.float64 or np.int32.
+    """
+    text = np.frombuffer(data, np.uint8)
+    rows = np.count_nonzero(text == NEWLINE)
+    if rows == 0 or np.count_nonzero(text == BLANK) != rows * (columns + skip - 1):
+        return None
+    if len(data) <= SMALL:
+        numbers, known = read_tokens(data, dtype)
+        known = known.reshape(rows, -1)[:, skip:]
+        return list(np.ascontiguousarray(numbers.reshape(rows, -1)[:, skip:].T)) if known.all() else None
+    import polars as pl
+
+    kind = pl.Float64 if dtype is np.float64 else pl.Int32
+    schema: dict[str, type[pl.DataType]] = {f"skip{k}": pl.String for k in range(skip)}
+    schema |= {f"{k}": kind for k in range(columns)}
+    table = _read_csv(data, schema, " ", range(skip, skip + columns))
+    if len(table) != rows or any(column.null_count() for column in table):
+        return None
+    return [column.to_numpy() for column in table]
+
+
+def read_records(data: bytes, dtype: type[np.generic]) -> Records:
+    """The numbers of lines that each begin with one word that is not a number.
+
+    Errors: Untidy where anything but numbers follows that word, or the text is not tidy.
+    """
+    width = len(data[: data.index(b"\n")].split()) - 1
+    if 0 < width <= 16 and b"/" not in data[: data.index(b"\n")]:
+        columns = read_columns(data, width, dtype, skip=1)
+        if columns is not None:
+            return Records(width, columns)
+    numbers, known = read_tokens(data, dtype)
+    words = np.flatnonzero(~known)
+    text = np.frombuffer(data, np.uint8)
+    rows = np.count_nonzero(text == NEWLINE)
+    if len(words) != rows:
+        separators = np.flatnonzero(text <= BLANK)
+        firsts = np.concatenate(([0], np.flatnonzero(text[separators] == NEWLINE)[:-1] + 1))
+        wrong = np.setdiff1d(words, firsts)
+        if not len(wrong) or len(numbers) != len(separators):
+            raise Untidy
+        begin = separators[wrong[0] - 1] + 1
+        raise Untidy(
+            int(np.searchsorted(firsts, wrong[0], side="right")) - 1, data[begin : begin + 40].split(maxsplit=1)[0]
+        )
+    return Records(np.diff(words, append=len(known)) - 1, values=numbers[known])
+
+
+def read_tokens(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
+    """Every token of a tidy text as a number, and which of them are numbers. What follows a `/` in a token is
+    ignored.
+
+    dtype: np.float64 or np.int32; an integer too large for its type is no number.
+    """
+    if len(data) <= SMALL:
+        return _read_tokens_slowly(data, dtype)
+    import polars as pl
+
+    kind = pl.Float64 if dtype is np.float64 else pl.Int32
+    column = _read_csv(data.translate(_TOKEN_PER_LINE), {"number": kind}, "/", range(1))["number"]
+    known = np.ones(len(column), np.bool_) if column.null_count() == 0 else column.is_not_null().to_numpy()
+    return column.fill_null(0).to_numpy(), known
+
+
+_NUMBER = re.compile(rb"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?:nan|inf|infinity))", re.IGNORECASE)
+_INTEGER = re.compile(rb"[+-]?\d{1,10}")
+
+
+def _read_tokens_slowly(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
+    tokens = data.split()
+    numbers = np.zeros(len(tokens), dtype)
+    known = np.zeros(len(tokens), np.bool_)
+    pattern, convert = (_NUMBER, float) if dtype is np.float64 else (_INTEGER, int)
+    for k, token in enumerate(tokens):
+        head = token.partition(b"/")[0]
+        if pattern.fullmatch(head):
+            value = convert(head)
+            if dtype is np.float64 or -(2**31) <= value < 2**31:
+                numbers[k] = value
+                known[k] = True
+    return numbers, known
+
+
+def _read_csv(data: bytes, schema: dict, separator: str, columns: range):  # type: ignore[no-untyped-def, type-arg]
+    import polars as pl
+
+    return pl.read_csv(
+        io.BytesIO(data),
+        has_header=False,
+        schema=schema,
+        columns=list(columns),
+        separator=separator,
+        quote_char=None,
+        ignore_errors=True,
+        truncate_ragged_lines=True,
+    )

@@ -1,0 +1,132 @@
+"""Merging vertices at equal, or nearly equal, positions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import Notice
+from .model import MeshFile
+
+_MIX = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0xD6E8FEB86659FD93)
+
+
+def welded(mesh: MeshFile, weld: str | float) -> MeshFile:
+    """The mesh with its corners at the lowest row of each group, and `welded_to`; its rows stay.
+
+    weld: `auto` or `none` (nothing is merged), `exact`, or a tolerance relative to the diagonal of the bounding box.
+    STL is welded exactly as it is read.
+    """
+    if weld in ("auto", "none") or (weld == "exact" and mesh.format == "stl"):
+        return mesh
+    if weld == "exact":
+        first, number = weld_exact(mesh.xyz)
+        lowest = first[number]
+    else:
+        lowest = weld_within(mesh.xyz, float(weld))
+    to = np.where(lowest == np.arange(len(lowest)), np.int32(-1), lowest)
+    merged = np.flatnonzero(to >= 0)
+    notice = Notice("welded", len(merged), "vertices are merged with an earlier one", None, tuple(merged[:5].tolist()))
+    return replace(
+        mesh,
+        corners=lowest[mesh.corners],
+        polylines=tuple(lowest[line] for line in mesh.polylines),
+        welded_to=to,
+        notices=(*mesh.notices, notice) if len(merged) else mesh.notices,
+    )
+
+
+def weld_exact(xyz: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Groups of exactly equal positions, at any scale (-0.0 equals 0.0).
+
+    xyz: (3, n) float64 or float32, one row per coordinate.
+    Returns the lowest index of each group (m,), ascending, and for each position the number of its group (n,).
+    """
+    unsigned = np.uint64 if xyz.dtype == np.float64 else np.uint32
+    bits = [(row + xyz.dtype.type(0)).view(unsigned) for row in xyz]
+    lowest = _lowest_equal(bits)
+    is_first = lowest == np.arange(len(lowest), dtype=np.int32)
+    number = np.cumsum(is_first, dtype=np.int32)
+    number -= 1
+    return np.flatnonzero(is_first).astype(np.int32), number[lowest]
+
+
+def _lowest_equal(bits: list[NDArray[Any]]) -> NDArray[np.int32]:
+    """For each column of bits the lowest index of an equal column.
+
+    A hash table filled in bulk: of all columns that fall into a slot the lowest index stays, whoever equals it is
+    settled, the others (few) go on to the next round with another hash. Equality is always tested on the bits.
+    """
+    n = len(bits[0])
+    lowest = np.empty(n, np.int32)
+    index = np.arange(n, dtype=np.int32)
+    table = np.empty(1, np.int32)
+    for round_ in range(32):
+        columns = [row if len(index) == n else row[index] for row in bits]
+        slots = max(4, len(index).bit_length())
+        slot = _hash(columns, round_) >> np.uint64(64 - slots)
+        if len(table) < 1 << slots:
+            table = np.empty(1 << slots, np.int32)
+        table[slot[::-1]] = index[::-1]  # the last assignment wins: the lowest index
+        candidate = table[slot]
+        equal = np.ones(len(index), np.bool_)
+        for row, column in zip(bits, columns, strict=True):
+            equal &= row[candidate] == column
+        if equal.all():
+            lowest[index] = candidate
+            return lowest
+        lowest[index[equal]] = candidate[equal]
+        index = index[~equal]
+    # Only a file made for it gets here: sort what is left.
+    columns = [row[index] for row in bits]
+    order = np.lexsort((index, *columns))
+    new = np.ones(len(order), np.bool_)
+    new[1:] = np.any([column[order[1:]] != column[order[:-1]] for column in columns], axis=0)
+    lowest[index[order]] = index[order][new][np.cumsum(new) - 1]
+    return lowest
+
+
+def _hash(columns: list[NDArray[Any]], round_: int) -> NDArray[np.uint64]:
+    mixed = np.full(len(columns[0]), round_, np.uint64)
+    for k, column in enumerate(columns):
+        mixed += column
+        mixed *= np.uint64(_MIX[(k + round_) % 4])
+        mixed ^= mixed >> np.uint64(29 + round_ % 5)
+    mixed *= np.uint64(_MIX[3])
+    return mixed
+
+
+def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]:
+    """For each position the lowest index of its group: positions joined by steps of at most `tolerance` times the
+    diagonal of the bounding box.
+
+    xyz: (3, n). Positions that are not finite stay alone.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    n = xyz.shape[1]
+    lowest = np.arange(n, dtype=np.int32)
+    finite = np.flatnonzero(np.isfinite(xyz).all(0))
+    if not len(finite):
+        return lowest
+    points = xyz[:, finite]
+    extent = points.max(1) - points.min(1)
+    scale = extent.max()
+    if not np.isfinite(scale) or scale == 0:
+        points, scale = points * 0.5**10, scale * 0.5**10
+        extent = points.max(1) - points.min(1)
+        scale = extent.max() or 1.0
+    points = (points - points.min(1)[:, None]) / scale
+    reach = tolerance * float(np.linalg.norm(extent / scale))
+    pairs = cKDTree(points.T).query_pairs(reach, output_type="ndarray")
+    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(len(finite), len(finite)))
+    _, label = connected_components(graph, directed=False)
+    first = np.full(label.max() + 1, n, np.int64)
+    np.minimum.at(first, label, finite)
+    lowest[finite] = first[label]
+    return lowest
