@@ -6,6 +6,7 @@ import difflib
 import re
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,20 +42,22 @@ class ColorScale:
 
 
 def colorize(
-    values: NDArray[np.float64],
+    values: NDArray[Any],
     *,
     cmap: str | None = None,
     value_range: str | None = None,
     signed: bool = False,
     ignore: NDArray[np.bool_] | None = None,
 ) -> ColorScale:
-    """Colour one value per vertex; NaN is undefined and gets a colour that the map does not hold.
+    """Colour one value per vertex; what is NaN or masked gets a colour that the map does not hold.
 
     value_range: `LO:HI`, or `pNN` for the central NN % of the values (signed: symmetric about 0, the NN-th percentile
     of their size). Default: 2nd to 98th percentile; signed: symmetric about 0, the 98th percentile of their size.
+    Where that is a single value though the values differ, as K of a finely divided cube, it is their whole range.
     ignore: (V,) values that do not help to choose the range, unless there are no others.
     Errors: UsageError for an unknown map, with the nearest names, and for a range that is none.
     """
+    values = _floats(values)
     name = cmap if cmap is not None else DIVERGING if signed else SEQUENTIAL
     gradient = _gradient(name)
     undefined = _undefined(gradient)
@@ -97,12 +100,19 @@ def _range(
     # A power of two takes the largest doubles out of the interpolation's reach and changes no digit.
     scale = 0.25 if np.abs(sample).max() > 1e300 else 1.0
     if signed:
-        share = 98.0 if central is None else central
-        size = float(np.percentile(np.abs(sample) * scale, share)) / scale
-        return -size, size
+        sizes = np.abs(sample)
+        size = float(np.percentile(sizes * scale, 98.0 if central is None else central)) / scale or float(sizes.max())
+        return 0.0 - size, size
     share = 96.0 if central is None else central
-    ends = np.percentile(sample * scale, [50 - share / 2, 50 + share / 2]) / scale
-    return float(ends[0]), float(ends[1])
+    first, last = (np.percentile(sample * scale, [50 - share / 2, 50 + share / 2]) / scale).tolist()
+    return (first, last) if first < last else (float(sample.min()), float(sample.max()))
+
+
+def _floats(values: NDArray[Any]) -> NDArray[np.float64]:
+    """The values with NaN for whatever is masked."""
+    if isinstance(values, np.ma.MaskedArray):
+        return np.where(np.ma.getmaskarray(values), np.nan, np.ma.getdata(values)).astype(np.float64, copy=False)
+    return values.astype(np.float64, copy=False)
 
 
 def parse_range(value_range: str | None) -> tuple[float | None, float | None, float | None]:

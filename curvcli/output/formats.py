@@ -10,12 +10,12 @@ from typing import Literal
 
 from ..errors import UsageError
 
-Kind = Literal["table", "mesh", "report", "picture"]
+Kind = Literal["table", "mesh", "triangles", "report", "picture"]
 
 
 @dataclass(frozen=True)
 class Format:
-    """One kind of file: its suffix with the dot, what it holds, and a line for the help."""
+    """One kind of file: its suffix with the dot, what it holds (`triangles`: no columns), and a line for the help."""
 
     suffix: str
     kind: Kind
@@ -31,7 +31,7 @@ FORMATS: dict[str, Format] = {
         Format(".npz", "table", "table, numpy arrays"),
         Format(".ply", "mesh", "mesh with every column as a property, binary"),
         Format(".obj", "mesh", "mesh with vertex colours, text"),
-        Format(".stl", "mesh", "triangles, binary, float32"),
+        Format(".stl", "triangles", "triangles, binary, float32"),
         Format(".json", "report", "report, JSON"),
     )
 }

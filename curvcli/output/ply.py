@@ -48,7 +48,10 @@ def write_ply(
     if vertex_colors is not None:
         vertices |= {name: vertex_colors[:, k] for k, name in enumerate(("red", "green", "blue"))}
     told = [" ".join(comment.split()) for comment in comments]
-    vertices |= _scalars(vertex_properties or {}, told)
+    properties = _scalars(vertex_properties or {}, told)
+    if clash := vertices.keys() & properties.keys():
+        raise ValueError(f"two vertex properties named {', '.join(sorted(clash))}")
+    vertices |= properties
     per_face = _scalars(face_properties or {}, told)
     corners, sizes = polygons if polygons is not None else (faces.reshape(-1), None)
     if sizes is not None and len(sizes) and sizes.min() == sizes.max() > 0:
@@ -60,10 +63,10 @@ def write_ply(
 
     header = ["ply", "format binary_little_endian 1.0", *(f"comment {line}" for line in told)]
     header.append(f"element vertex {len(points)}")
-    header += [f"property {_SCALARS[column.dtype.str[1:]]} {_token(name)}" for name, column in vertices.items()]
+    header += [f"property {_SCALARS[column.dtype.str[1:]]} {name}" for name, column in vertices.items()]
     header.append(f"element face {len(corners) if sizes is None else len(sizes)}")
     header.append(f"property list {_SCALARS[count[1:]]} int vertex_indices")
-    header += [f"property {_SCALARS[column.dtype.str[1:]]} {_token(name)}" for name, column in per_face.items()]
+    header += [f"property {_SCALARS[column.dtype.str[1:]]} {name}" for name, column in per_face.items()]
     stream.write(("\n".join([*header, "end_header"]) + "\n").encode("ascii", "backslashreplace"))
 
     for block in _records(vertices, len(points)):
@@ -87,15 +90,16 @@ def _even(
     corners: NDArray[np.integer[Any]], count: str, properties: Mapping[str, NDArray[Any]]
 ) -> Iterator[NDArray[Any]]:
     """The face rows when all polygons have the same number of corners; corners (P, n)."""
+    # The names of properties are single words, so that these two cannot meet one of them.
     fields = [(name, column.dtype) for name, column in properties.items()]
     sides = corners.shape[1]
-    record = np.dtype([("", count), (" ", "<i4", (sides,)), *fields])
+    record = np.dtype([("corner count", count), ("corner list", "<i4", (sides,)), *fields])
     step = max(1, _ROWS_AT_A_TIME // max(1, sides // 4))
     for start in range(0, len(corners), step):
         part = corners[start : start + step]
         rows = np.empty(len(part), record)
-        rows["f0"] = sides
-        rows[" "] = part
+        rows["corner count"] = sides
+        rows["corner list"] = part
         for name, column in properties.items():
             rows[name] = column[start : start + len(part)]
         yield rows
@@ -134,7 +138,7 @@ def _mixed(
 
 def _scalars(columns: Mapping[str, Column], told: list[str]) -> dict[str, NDArray[Any]]:
     """The columns in the scalar types of PLY, little-endian; the meaning of label codes is added to the comments."""
-    return {name: _scalar(name, column, told) for name, column in columns.items()}
+    return {_token(name): _scalar(name, column, told) for name, column in columns.items()}
 
 
 def _scalar(name: str, column: Column, told: list[str]) -> NDArray[Any]:

@@ -23,7 +23,9 @@ def write_stl(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.i
     """
     if len(faces) >= 2**32:
         raise OutputError(f"STL holds fewer than 2³² triangles, this mesh has {len(faces)}; .ply holds them")
-    used = points[np.unique(faces)]
+    referenced = np.zeros(len(points), np.bool_)
+    referenced[faces] = True
+    used = points[referenced]
     with np.errstate(over="ignore", under="ignore"):
         kept = used.astype(np.float32)
     large = ~np.isfinite(kept) & np.isfinite(used)

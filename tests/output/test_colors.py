@@ -75,6 +75,19 @@ def test_constant_columns(value: float, signed: bool, place: int) -> None:
     assert got.clipped_below == got.clipped_above == 0
 
 
+@pytest.mark.parametrize(("signed", "expected"), [(True, (-5, 5)), (False, (0, 5))])
+def test_a_few_values_among_equal_ones_still_make_a_range(signed: bool, expected: tuple[float, float]) -> None:
+    got = scale([0.0] * 1000 + [5.0], signed=signed)
+    assert (got.low, got.high, got.clipped_above) == (*expected, 0)
+
+
+def test_integers_and_masked_integers() -> None:
+    got = colorize(np.ma.array([3, 99, 6], mask=[False, True, False]), value_range="p100", cmap="viridis")
+    assert got.rgb.tolist() == [VIRIDIS[0], GREY, VIRIDIS[1]]
+    assert (got.low, got.high, got.nulls) == (3, 6, 1)
+    assert colorize(np.array([3, 6]), value_range="p100", cmap="viridis").rgb.tolist() == [*VIRIDIS]
+
+
 @pytest.mark.parametrize("size", [1e-310, 1e-300, 1e300, 1.7e308])
 def test_extreme_sizes(size: float) -> None:
     got = scale(np.array([-size, 0, size]), value_range="p100", cmap="viridis")

@@ -104,9 +104,25 @@ def test_every_column_reads_back() -> None:
 
 
 def test_trimesh_reads_the_same_surface() -> None:
-    mesh = trimesh.load_mesh(io.BytesIO(written(POINTS, FACES)), file_type="ply", process=False)
+    colors = np.arange(12, dtype=np.uint8).reshape(4, 3)
+    data = written(POINTS, FACES, vertex_colors=colors, vertex_properties={"K": POINTS[:, 1], "degree": np.full(4, 3)})
+    mesh = trimesh.load_mesh(io.BytesIO(data), file_type="ply", process=False)
     np.testing.assert_array_equal(mesh.vertices, POINTS)
     np.testing.assert_array_equal(mesh.faces, FACES)
+    np.testing.assert_array_equal(mesh.visual.vertex_colors[:, :3], colors)
+    np.testing.assert_array_equal(mesh.metadata["_ply_raw"]["vertex"]["data"]["K"].ravel(), POINTS[:, 1])
+
+
+@pytest.mark.parametrize("name", ["x", "red"])
+def test_two_properties_of_one_name_are_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=name):
+        written(POINTS, FACES, vertex_colors=np.zeros((4, 3), np.uint8), vertex_properties={name: np.zeros(4)})
+
+
+def test_any_word_is_a_name() -> None:
+    columns = {name: np.arange(4) for name in ["f0", "f1", "corner_list", "#", "vertex"]}
+    _, vertices, faces = read(written(POINTS, FACES, vertex_properties=columns, face_properties=columns))
+    assert all(vertices[name] == faces[name] == [0, 1, 2, 3] for name in columns)
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import struct
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -159,6 +161,27 @@ def test_equal_input_gives_equal_bytes(suffix: str) -> None:
 
 def test_no_rows() -> None:
     assert text({"a": np.zeros(0), "s": Labels(np.zeros(0, np.int32), ())}) == "a,s\n"
+
+
+def test_labels_without_a_name() -> None:
+    assert text({"n": np.arange(2), "region": Labels(np.full(2, -1, np.int32), ())}) == "n,region\n0,\n1,\n"
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".tsv", ".parquet", ".npz"])
+def test_a_pipe_gets_the_same_table(suffix: str, tmp_path: Path) -> None:
+    program = (
+        "import sys, numpy as np; from curvcli.output.tables import write_table\n"
+        "columns = {'n': np.arange(100_000), 'a': np.linspace(0, 1, 100_000)}\n"
+        "write_table(sys.stdout.buffer, columns, sys.argv[1])"
+    )
+    piped = subprocess.run([sys.executable, "-c", program, suffix], stdout=subprocess.PIPE, check=True).stdout
+    with open(tmp_path / "file", "w+b") as file:
+        subprocess.run([sys.executable, "-c", program, suffix], stdout=file, check=True)
+    if suffix == ".npz":
+        with np.load(io.BytesIO(piped)) as table:
+            np.testing.assert_array_equal(table["a"], np.linspace(0, 1, 100_000))
+    else:
+        assert piped == (tmp_path / "file").read_bytes()
 
 
 def test_names_are_quoted_and_utf8() -> None:
