@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .surface import Surface
 
 Floats = NDArray[np.float64]
-Vector = Sequence[Floats]
+Vector = Sequence[Floats] | Floats
 
 FACES_PER_BLOCK = 16384
 EPSILON = float(np.finfo(np.float64).eps)
@@ -36,15 +36,17 @@ def cross(a: Vector, b: Vector) -> list[Floats]:
 
 def dot(a: Vector, b: Vector) -> Floats:
     """a · b of vectors given by their components."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return product
 
 
 @dataclass(frozen=True)
 class Triangles:
     """The geometry of some faces.
 
-    u, v, w: edge vectors from corner 0 to 1, 1 to 2 and 0 to 2. normal: u × w, twice the area long. twice_area: its length.
-    cosines: for each corner the dot product of the two edges that leave it. degenerate: |u × w| ≤ 4 ε · (longest edge)².
+    u, v, w: edge vectors from corner 0 to 1, 1 to 2 and 0 to 2. normal: u × w. twice_area: its length.
+    cosines: for each corner the dot product of the two edges that leave it.
+    degenerate: |u × w| ≤ 4 ε · (longest edge)², None where no face is.
     """
 
     u: Vector
@@ -128,8 +130,8 @@ class StarSums:
 def star_sums(surface: Surface) -> StarSums:
     """Angle sums, areas, vector areas and area gradients of all stars in one blocked sweep.
 
-    Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The gradient of a
-    triangle's area with respect to a corner is half the opposite edge turned into the triangle's plane, ½ ν × d.
+    Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The gradient
+    of a triangle's area with respect to a corner is half the opposite edge turned within its plane, ½ ν × d.
     """
     n, faces, sign = surface.n_vertices, surface.faces, surface.corner_sign
     angle, area = np.zeros(n), np.zeros(n)

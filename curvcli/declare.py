@@ -41,8 +41,8 @@ class Quantity:
 
     name: of the column. symbol, formula, preserves, boundary, source: for people. on: its element.
     kind: `measure` is integrated, `density` is per area or pointwise. length_exponent: how it scales with length.
-    mean_degree: 0, 1 or 2, how it scales with the convention for H. parity: under reversal of the orientation; what is odd
-    is null on patches that have none. vector: (3, n). public: whether it is a column of the table.
+    mean_degree: 0, 1 or 2, how it scales with the convention for H. parity: under reversal of the orientation; what is
+    odd is null on patches that have none. vector: (3, n). public: whether it is a column of the table.
     total: the key of its sum in the report. signed: whether 0 is the middle of its range.
     """
 
@@ -90,7 +90,7 @@ class Pass:
         from .pipeline import evaluate, presented
 
         found = evaluate(surface, [quantity.name for quantity in self.provides])
-        shown = {q.name: presented(q, found[q.name], surface.unit) for q in self.provides}
+        shown = {q.name: presented(q, found[q.name], surface) for q in self.provides}
         return shown[self.provides[0].name] if len(shown) == 1 else shown
 
 

@@ -67,7 +67,11 @@ class Segments:
         """Largest value of each group; NaN for a group without one."""
         largest = np.full(self.count, -np.inf)
         known = ~np.isnan(values)
-        np.maximum.at(largest, 0 if self.label is None else self.label[known], values[known])
+        if self.label is None:
+            largest[0] = values.max(where=known, initial=-np.inf)
+        else:
+            known &= self.label >= 0
+            np.maximum.at(largest, self.label[known], values[known])
         return np.where(largest == -np.inf, np.nan, largest)
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from difflib import get_close_matches
 from graphlib import TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from .declare import CELL_AREA, CELL_AREAS, SURFACE, Pass, Quantity, passes
@@ -19,17 +18,19 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 
+# The default preset, in the order of the table.
 CORE = (
-    ["status", "degree", "K", "kappa_g", "A", "A_vec", "H_vec", "h", "h_signed", "K_density", "kappa_1", "kappa_2", "willmore", "willmore_hks"]
-)  # the default preset, interface.md's order
+    *("status", "degree", "K", "kappa_g", "A", "A_vec", "H_vec", "h", "h_signed", "K_density"),
+    *("kappa_1", "kappa_2", "willmore", "willmore_hks"),
+)
 
 
 def resolve(names: Iterable[str]) -> list[str]:
-    """Quantity names for what a user asked for: names, stems of vectors, comma lists and presets, in registry order.
+    """Quantity names for what a user asked for: names, stems of vectors, comma lists and presets, in table order.
 
     Errors: UsageError for an unknown name, with the nearest ones.
     """
-    _load()
+    load_passes()
     public = {quantity.name: quantity for quantity in passes.quantities()}
     presets = {
         "topology": ["status", "degree"],
@@ -47,7 +48,41 @@ def resolve(names: Iterable[str]) -> list[str]:
         else:
             near = get_close_matches(name, [*presets, *public], 3, 0.4) or ["`curvcli passes` lists them"]
             raise UsageError(f"unknown pass {name!r}; nearest: {', '.join(near)}")
-    return [name for name in public if name in wanted]
+    return in_order(name for name in public if name in wanted)
+
+
+# The order of the table; columns of plug-ins follow in the order of their registration.
+ORDER = (
+    *("status", "degree", "K", "kappa_g", "K_comb", "K_plus", "K_minus", "K_abs", "A", "A_mixed", "A_voronoi", "A_vec"),
+    *("H_vec", "area_gradient", "h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2"),
+    *("dir_1", "dir_2", "shape_index", "curvedness", "willmore", "willmore_hks", "willmore_perp", "willmore_normal"),
+    "willmore_conformal",
+)
+
+
+def in_order(names: Iterable[str]) -> list[str]:
+    """Names in the order of the table."""
+    rank = {name: place for place, name in enumerate(ORDER)}
+    return sorted(names, key=lambda name: rank.get(name, len(rank)))
+
+
+def needs(one: Pass, area: str) -> list[str]:
+    """The quantities a pass needs, the chosen cell area under its own name."""
+    return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need != SURFACE]
+
+
+def schedule(names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Pass]:
+    """The passes that must run for the named quantities, each after what it needs."""
+    load_passes()
+    graph: dict[str, set[str]] = {}
+    todo = list(names)
+    while todo:
+        one = passes.provider(todo.pop())
+        if one.name not in graph:
+            missing = [need for need in needs(one, area) if need not in have]
+            graph[one.name] = {passes.provider(need).name for need in missing}
+            todo += missing
+    return [passes[name] for name in TopologicalSorter(graph).static_order()]
 
 
 def evaluate(
@@ -56,52 +91,37 @@ def evaluate(
     """Compute the named quantities and only what they need; every pass runs once, intermediates are let go.
 
     area: which cell area `K_density` and what follows from it use. known: columns that need not be computed again.
-    Arrays are frozen, in the surface's `unit` and the sum convention of H.
+    Arrays are frozen, in the unit of computation and the sum convention of H.
     """
-    _load()
+    load_passes()
     have: dict[str, Array] = dict(known or {})
     keep = {*names, *have}
 
-    def needs(one: Pass) -> list[str]:
-        return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need != SURFACE]
-
-    graph: dict[str, set[str]] = {}
-    todo = [name for name in keep if name not in have]
-    while todo:
-        one = passes.provider(todo.pop())
-        if one.name not in graph:
-            missing = [need for need in needs(one) if need not in have]
-            graph[one.name] = {passes.provider(need).name for need in missing}
-            todo += missing
-    order = list(TopologicalSorter(graph).static_order())
-    uses = Counter(need for name in order for need in needs(passes[name]))
-    for name in order:
-        one = passes[name]
-        required = iter(needs(one))
+    order = schedule([name for name in keep if name not in have], area, set(have))
+    uses = Counter(need for one in order for need in needs(one, area))
+    for one in order:
+        required = iter(needs(one, area))
         found = one.compute(*(surface if need == SURFACE else have[next(required)] for need in one.needs))
         for quantity, array in zip(one.provides, found if len(one.provides) > 1 else (found,), strict=True):
             array.setflags(write=False)
             have[quantity.name] = array
-        for need in [*needs(one), *(quantity.name for quantity in one.provides)]:
-            uses[need] -= need in needs(one)
+        for need in [*needs(one, area), *(quantity.name for quantity in one.provides)]:
+            uses[need] -= need in needs(one, area)
             if uses[need] <= 0 and need not in keep:
                 have.pop(need, None)
     return have
 
 
-def presented(quantity: Quantity, array: Array, unit: float, mean: str = "sum") -> Array:
+def presented(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:
     """A column as a user sees it: in the file's unit of length and the chosen convention for H, vectors as (n, 3)."""
-    factor = unit**quantity.length_exponent if quantity.length_exponent and unit != 1.0 else 1.0
-    if mean == "average":
-        factor *= 0.5**quantity.mean_degree
-    if factor != 1.0:
-        with np.errstate(over="ignore"):
-            array = array * factor
-        array[np.isinf(array)] = np.nan
-        array.setflags(write=False)
+    if quantity.length_exponent:
+        array = surface.in_file_unit(array, quantity.length_exponent)
+    if mean == "average" and quantity.mean_degree:
+        array = array * 0.5**quantity.mean_degree
+    array.setflags(write=False)
     return array.T if quantity.vector else array
 
 
-def _load() -> None:
+def load_passes() -> None:
     """Import the built-in passes and the plug-ins of entry-point group `curvcli.passes`, once."""
-    from . import passes as built_in  # noqa: F401  (importing registers)
+    from . import curvatures  # noqa: F401  (importing registers)

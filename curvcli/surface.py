@@ -106,23 +106,34 @@ class Surface:
         return self.xyz_given.T
 
     @cached_property
-    def unit(self) -> float:
-        """The power of two in which lengths are computed: 1 unless the mesh is so large or small that squares of areas
-        would leave the range of doubles. Scaling by it is exact."""
+    def unit_exponent(self) -> int:
+        """Lengths are computed in units of 2 to this power, which is exact.
+
+        0 unless the mesh is so large or small that squares of areas would leave the range of doubles.
+        """
         used = self.xyz_given[:, self.referenced] if not self.referenced.all() else self.xyz_given
-        half = used.max(axis=1) / 2 - used.min(axis=1) / 2
-        extent = float(half.max())
+        extent = float((used.max(axis=1) / 2 - used.min(axis=1) / 2).max())
         exponent = math.frexp(extent)[1] + 1
-        return 1.0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else math.ldexp(1.0, min(exponent, 1023))
+        return 0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else exponent
+
+    def in_file_unit(self, values: NDArray[np.float64], length_exponent: int) -> NDArray[np.float64]:
+        """Values of a length exponent, from the unit of computation to the file's; NaN where no double holds them."""
+        power = length_exponent * self.unit_exponent
+        if not power:
+            return values
+        with np.errstate(over="ignore", under="ignore"):
+            scaled = np.ldexp(values, power)
+        tiny = (np.abs(scaled) < np.finfo(np.float64).tiny) & (values != 0)
+        return np.where(np.isinf(scaled) | tiny, np.nan, scaled)
 
     @cached_property
     def xyz(self) -> NDArray[np.float64]:
-        """(3, V) coordinates in `unit`, one contiguous row per coordinate."""
-        return self.xyz_given if self.unit == 1.0 else self.xyz_given / self.unit
+        """(3, V) coordinates in the unit of computation, one contiguous row per coordinate."""
+        return self.xyz_given if not self.unit_exponent else np.ldexp(self.xyz_given, -self.unit_exponent)
 
     @cached_property
     def base(self) -> NDArray[np.float64]:
-        """(3,) a point of the mesh, in `unit`, about which moments are taken so that an offset costs no digits."""
+        """(3,) a point of the mesh about which moments are taken, so that an offset costs no digits."""
         return self.xyz[:, self.faces[0, 0]].copy()
 
     # ------------------------------------------------------------------ incidence

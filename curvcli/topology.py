@@ -111,7 +111,7 @@ def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
 
 def neighbouring_corners(faces: Index, one: Index, other: Index) -> tuple[Index, Index]:
     """Pairs of corners at the same vertex on the two sides of each edge given by its two half-edges."""
-    tail, head = ends(faces)
+    tail = faces.ravel()
 
     def next_corner(h: Index) -> Index:
         return h + np.where(h % 3 == 2, -2, 1).astype(np.int32)

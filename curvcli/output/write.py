@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from ..declare import passes
+from ..declare import Quantity, passes
 from ..errors import Notice, UsageError
 from ..tables import vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import format_of
 from .meshes import beside_input, write_mesh
-from .tables import write_table
+from .tables import parse_precision, write_table
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -76,6 +76,29 @@ def write_into(
     return notices
 
 
+def check_appearance(appearance: Appearance, chosen: list[str]) -> None:
+    """Refuse, before any work, a colour column that will not be there, an unknown map, range or precision.
+
+    Errors: UsageError.
+    """
+    from .colors import colorize
+
+    parse_precision(appearance.precision)
+    if appearance.cmap is not None or appearance.value_range is not None:
+        colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
+    if appearance.color_by is not None:
+        _colored_column(appearance.color_by, chosen)
+
+
+def _colored_column(name: str, chosen: list[str]) -> Quantity:
+    """The quantity whose column colours the mesh."""
+    columns = {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
+    if name not in columns or columns[name].labels:
+        known = ", ".join(column for column, quantity in columns.items() if not quantity.labels)
+        raise UsageError(f"--color-by {name}: no such column is computed, expected one of {known}; -p {name} adds it")
+    return columns[name]
+
+
 def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale] | None:
     """The column that colours the surface and its colours; None when no column was computed."""
     from .colors import colorize
@@ -83,16 +106,13 @@ def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale]
     name = appearance.color_by or next((n for n in _COLOR_BY if n in analysis.chosen), None)
     if name is None:
         return None
-    columns = {column: q for q in map(passes.quantity, analysis.chosen) for column in q.columns if q.on == "vertex"}
-    if name not in columns or columns[name].labels:
-        known = ", ".join(column for column, quantity in columns.items() if not quantity.labels)
-        raise UsageError(f"--color-by {name}: no such column here, expected one of {known}")
+    quantity = _colored_column(name, analysis.chosen)
     values = np.where(analysis.surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
     scale = colorize(
         values,
         cmap=appearance.cmap,
         value_range=appearance.value_range,
-        signed=columns[name].signed or columns[name].vector,
+        signed=quantity.signed or quantity.vector,
         ignore=analysis.surface.boundary,
     )
     return name, scale

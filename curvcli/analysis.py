@@ -1,0 +1,231 @@
+"""Analysis: the columns, totals, checks and notices of one surface."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import findings
+from .checks import Check, rules
+from .declare import CELL_AREAS, Element, Quantity, passes
+from .errors import Notice, UsageError
+from .groups import Groups
+from .loading.surfaces import Orient, as_surface
+from .pipeline import evaluate, presented, resolve, schedule
+from .surface import Surface
+from .totals import totals
+
+if TYPE_CHECKING:
+    import os
+
+Array = NDArray[Any]
+
+# Checks of components are listed one by one up to this many components; beyond, those that do not pass.
+LISTED_COMPONENTS = 100
+
+# What the report's statistics and the default check need whatever is asked for.
+_ALWAYS = ("status", "degree", "star_area", "face_area", "degenerate_face", "K", "kappa_g")
+
+
+@dataclass(frozen=True)
+class Conventions:
+    """The choices that change numbers or their names; every output states them."""
+
+    mean: str = "sum"
+    area: str = "barycentric"
+    orient: str = "file"
+    weld: str = "none"
+    unit: str | None = None
+
+
+class Columns(Mapping[str, Array]):
+    """Columns of one element by name, read-only; a vector is there by its stem as (n, 3) and by its components."""
+
+    def __init__(self, analysis: Analysis, element: Element) -> None:
+        self._analysis = analysis
+        self._quantities: dict[str, tuple[Quantity, int | None]] = {}
+        for name in analysis.chosen:
+            quantity = passes.quantity(name)
+            if quantity.on == element:
+                self._quantities[name] = (quantity, None)
+                if quantity.vector:
+                    self._quantities.update({column: (quantity, k) for k, column in enumerate(quantity.columns)})
+        self._shown: dict[str, Array] = {}
+
+    def __getitem__(self, name: str) -> Array:
+        quantity, component = self._quantities[name]
+        if quantity.name not in self._shown:
+            self._shown[quantity.name] = self._analysis.column(quantity.name)
+        column = self._shown[quantity.name]
+        return column if component is None else column[:, component]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._quantities)
+
+    def __len__(self) -> int:
+        return len(self._quantities)
+
+
+class Analysis:
+    """Everything computed of one surface: `vertices`, `edges`, `faces`, `totals`, `checks`, `notices`, `report()`.
+
+    Columns are in the file's unit of length and in the chosen convention for H; NaN is undefined.
+    """
+
+    def __init__(self, surface: Surface, chosen: list[str], conventions: Conventions) -> None:
+        self.surface, self.chosen, self.conventions = surface, chosen, conventions
+        self.timings: dict[str, float] = {}
+        self.extra_notices: list[Notice] = []
+        self._rules = self._applicable_rules()
+        wanted = {*chosen, *_ALWAYS, *self._totalled, *(need for rule in self._rules for need in rule.needs)}
+        self.columns = evaluate(surface, wanted, area=conventions.area)
+
+    @cached_property
+    def _closure(self) -> set[str]:
+        """Every quantity that is computed on the way to the chosen ones."""
+        order = schedule([*self.chosen, *_ALWAYS], self.conventions.area)
+        return {quantity.name for one in order for quantity in one.provides}
+
+    @cached_property
+    def _totalled(self) -> list[str]:
+        return [q.name for q in passes.quantities(public=False) if q.total and q.name in self._closure]
+
+    def _applicable_rules(self) -> list[Any]:
+        """Checks whose needs the chosen passes meet; lengths of edges come for the asking."""
+        known = self._closure | {"edge_length"}
+        return [rule for rule in rules.values() if known.issuperset(rule.needs)]
+
+    # ------------------------------------------------------------------ columns
+
+    def column(self, name: str) -> Array:
+        """One computed column as a user sees it: (n,), (n, 3), or strings for labels."""
+        quantity = passes.quantity(name)
+        if quantity.labels:
+            return np.array(quantity.labels)[self.columns[name]]
+        return presented(quantity, self.columns[name], self.surface, self.conventions.mean)
+
+    @cached_property
+    def vertices(self) -> Columns:
+        """Vertex columns by name."""
+        return Columns(self, "vertex")
+
+    @cached_property
+    def edges(self) -> Columns:
+        """Edge columns by name."""
+        return Columns(self, "edge")
+
+    @cached_property
+    def faces(self) -> Columns:
+        """Face columns by name."""
+        return Columns(self, "face")
+
+    # ------------------------------------------------------------------ integrals
+
+    def totals_of(self, groups: Groups) -> dict[str, NDArray[np.float64]]:
+        """Totals of each group, (G,) or (G, 3); NaN where undefined."""
+        return totals(self.surface, groups, self.columns, self.conventions.mean)
+
+    @cached_property
+    def totals(self) -> dict[str, float | list[float] | None]:
+        """Totals of the whole surface by the report's keys; None where undefined."""
+        return {key: plain(values[0]) for key, values in self.totals_of(self.surface.whole).items()}
+
+    @cached_property
+    def checks(self) -> list[Check]:
+        """Every identity that the chosen passes allow to be tested, on the whole and on each component."""
+        found = [check for rule in self._rules for check in rule.run(self.surface, self.surface.whole, self.columns)]
+        components = self.surface.components
+        if components.count > 1:
+            for rule in self._rules:
+                each = rule.run(self.surface, components, self.columns)
+                found += each if components.count <= LISTED_COMPONENTS else summarised(each)
+        return found
+
+    @property
+    def passed(self) -> bool:
+        """Whether no check failed."""
+        return not any(check.status == "fail" for check in self.checks)
+
+    @property
+    def notices(self) -> list[Notice]:
+        """What was accepted but should be said: the loader's notices and the surface's defects."""
+        return [*self.surface.notices, *self._findings, *self.extra_notices]
+
+    @cached_property
+    def _findings(self) -> list[Notice]:
+        return findings.of_surface(self.surface, self.columns)
+
+    # ------------------------------------------------------------------ outputs
+
+    def report(self) -> dict[str, Any]:
+        """The report of the interface, as plain Python values ready for JSON."""
+        from .report.model import build
+
+        return build(self)
+
+    def write(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+        """Write the vertex table, a coloured mesh or the report, as the suffix says; whole or not at all."""
+        from .output.write import write_outputs
+
+        write_outputs(self, [str(path)], force=force)
+
+
+def summarised(checks: list[Check]) -> list[Check]:
+    """The checks of very many components: those that fail, and one line for the rest."""
+    failed = [check for check in checks if check.status == "fail"]
+    if failed or not checks:
+        return failed
+    passed = sum(check.status == "pass" for check in checks)
+    worst = max((check for check in checks if check.status == "pass"), key=_strain, default=None)
+    if worst is None:
+        return [Check(checks[0].name, "components", "not_applicable", None, None, None, None, checks[0].detail)]
+    detail = (
+        f"{passed} of {len(checks)} components pass, the others are not applicable; {worst.scope} is the closest call"
+    )
+    return [
+        Check(worst.name, "components", "pass", worst.value, worst.expected, worst.residual, worst.tolerance, detail)
+    ]
+
+
+def _strain(check: Check) -> float:
+    return check.residual / check.tolerance if check.residual and check.tolerance else 0.0
+
+
+def plain(value: Any) -> Any:
+    """A number or list for JSON, None where undefined."""
+    if np.ndim(value):
+        return [plain(x) for x in value]
+    return float(value) if np.isfinite(value) else None
+
+
+def analyze(
+    surface: Any,
+    passes: str | Iterable[str] = "core",
+    *,
+    area: Literal["barycentric", "mixed", "voronoi"] = "barycentric",
+    mean: Literal["sum", "average"] = "sum",
+    orient: Orient = "file",
+    weld: str | float = "auto",
+    unit: str | None = None,
+) -> Analysis:
+    """Compute curvatures of a surface, its totals and the identities that prove them.
+
+    surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
+    passes: a preset (`topology`, `core`, `paper`, `all`) or names. area: the cell of `K_density`. mean: whether H is
+    κ₁ + κ₂ or their average. orient: `outward` turns closed patches inside out. weld: see `curvcli.load`.
+    unit: a label for lengths.
+    Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
+    """
+    chosen = resolve([passes] if isinstance(passes, str) else passes)
+    for option, value, known in (("area", area, tuple(CELL_AREAS)), ("mean", mean, ("sum", "average"))):
+        if value not in known:
+            raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
+    found = as_surface(surface, orient=orient, weld=weld)
+    welded = "exact" if weld == "auto" and found.file is not None and found.file.format == "stl" else str(weld)
+    conventions = Conventions(mean, area, orient, "none" if welded == "auto" else welded, unit)
+    return Analysis(found, chosen, conventions)

@@ -1,0 +1,121 @@
+"""Counting: the topology of the whole surface and of each of its groups."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .groups import Groups
+from .loading.weld import weld_exact
+from .surface import Surface
+
+Counts = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Census:
+    """Counts per group; `boundary_loops`, `genus` and `crosscaps` are -1 here where they are null in the report."""
+
+    vertices: Counts
+    edges: Counts
+    faces: Counts
+    euler_characteristic: Counts
+    boundary_edges: Counts
+    nonmanifold_edges: Counts
+    nonmanifold_vertices: Counts
+    closed: Mask
+    manifold: Mask
+    orientable: Mask
+    consistent_winding: Mask
+    balanced: Mask
+
+
+def census(surface: Surface, groups: Groups) -> Census:
+    """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
+    cache: dict[int, Census] = surface.__dict__.setdefault("_census", {})
+    if id(groups) not in cache:
+        cache[id(groups)] = _count(surface, groups)
+    return cache[id(groups)]
+
+
+def _count(surface: Surface, groups: Groups) -> Census:
+    vertices = groups.vertices.count_true(surface.referenced)
+    edges, faces = groups.edges.members(), groups.faces.members()
+    boundary = groups.edges.count_true(surface.boundary_edges)
+    many = groups.edges.count_true(surface.nonmanifold_edges)
+    split = groups.vertices.count_true(surface.split_stars)
+    if surface.orientable:
+        orientable = np.ones(groups.count, bool)
+    else:
+        orientable = ~groups.faces.any(~surface.orientation.orientable[surface.orientation.patch])
+    return Census(
+        vertices,
+        edges,
+        faces,
+        vertices - edges + faces,
+        boundary,
+        many,
+        split,
+        boundary == 0,
+        (many == 0) & (split == 0),
+        orientable,
+        ~groups.edges.any(surface.winding_conflicts),
+        ~groups.edges.any(surface.half_edge_sum != 0),
+    )
+
+
+@dataclass(frozen=True)
+class Genus:
+    """Boundary loops, genus and crosscaps per component; NaN where they are null."""
+
+    boundary_loops: NDArray[np.float64]
+    genus: NDArray[np.float64]
+    crosscaps: NDArray[np.float64]
+
+
+def genus(surface: Surface) -> Genus:
+    """Classify each component that is a manifold: χ = 2 − 2g − loops if orientable, 2 − crosscaps − loops if not."""
+    groups = surface.components
+    counts = census(surface, groups)
+    loops = np.zeros(groups.count)
+    if len(surface.boundary_half_edges):
+        number, loop_of = surface.boundary_loop_of
+        component = np.empty(number, np.int64)
+        component[loop_of] = groups.face[surface.boundary_half_edges // 3]
+        loops = np.bincount(component, minlength=groups.count).astype(np.float64)
+    loops[~counts.manifold] = np.nan
+    missing = 2 - counts.euler_characteristic - loops
+    return Genus(loops, np.where(counts.orientable, missing / 2, np.nan), np.where(counts.orientable, np.nan, missing))
+
+
+def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
+    """Referenced vertices beyond the first at exactly the same position."""
+    index = np.flatnonzero(surface.referenced)
+    xyz = surface.xyz_given[:, index] if len(index) < surface.n_vertices else surface.xyz_given
+    first, _ = weld_exact(xyz)
+    again = np.ones(len(index), bool)
+    again[first] = False
+    return index[again]
+
+
+def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
+    """Faces beyond the first with the same three corners in any order."""
+    key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
+    faces = surface.faces
+    suspects = np.flatnonzero(_shared_keys(key[faces[:, 0]] + key[faces[:, 1]] + key[faces[:, 2]]))
+    if not len(suspects):
+        return suspects
+    corners = np.sort(faces[suspects], axis=1)
+    order = np.lexsort(corners.T)
+    again = (np.diff(corners[order], axis=0) == 0).all(axis=1)
+    return np.sort(suspects[order[1:][again]])
+
+
+def _shared_keys(keys: NDArray[np.uint64]) -> Mask:
+    """Which members carry a key that another one carries too."""
+    ordered = np.sort(keys)
+    repeated = ordered[1:][ordered[1:] == ordered[:-1]]
+    return np.isin(keys, repeated) if len(repeated) else np.zeros(len(keys), bool)

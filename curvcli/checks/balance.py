@@ -1,0 +1,117 @@
+"""Balance of forces: what the surface pulls at its boundary, its mean curvature pulls back inside."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import dot
+from ..curvatures.mean import conormals
+from ..declare import Column, VectorColumn
+from ..groups import Groups, Segments
+from ..surface import Surface
+from ..topology import Index
+from .base import Floats, Outcome, check, exclude_null, rounding
+
+
+def vector_sum(segments: Segments, vectors: VectorColumn) -> Floats:
+    """(G, 3) sums of a (3, n) array over each group."""
+    return np.stack([segments.sum(component) for component in vectors], axis=1)
+
+
+def boundary_segments(surface: Surface, groups: Groups, half_edges: Index) -> Segments:
+    """The groups of the faces of some half-edges."""
+    label = None if groups.faces.label is None else groups.face[half_edges // 3]
+    return Segments(label, groups.count, len(half_edges))
+
+
+def _boundary(surface: Surface, groups: Groups) -> tuple[Segments, VectorColumn, VectorColumn]:
+    """Segments, midpoints about the base and conormals η|e| of the boundary edges."""
+    half_edges = surface.boundary_half_edges
+    face, corner = half_edges // 3, half_edges % 3
+    ends = surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]
+    base = surface.base[:, None]
+    midpoint = 0.5 * (surface.xyz[:, ends[0]] - base) + 0.5 * (surface.xyz[:, ends[1]] - base)
+    return boundary_segments(surface, groups, half_edges), midpoint, conormals(surface, half_edges)
+
+
+def _perimeters(surface: Surface, groups: Groups, edge_length: Column, weight: Floats | float = 1.0) -> Floats:
+    """Σ over each group's half-edges of their length: the size of the terms of which H_p is the sum."""
+    return groups.edges.sum(edge_length * surface.edges.valence * weight)
+
+
+def _arms(surface: Surface) -> Floats:
+    """(E,) distance of each edge from the base, by its farther end."""
+    offset = surface.xyz - surface.base[:, None]
+    distance = np.sqrt(dot(offset, offset))
+    return np.maximum(distance[surface.edges.a], distance[surface.edges.b])
+
+
+@check
+def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_length: Column) -> Outcome:
+    """Σ η|e| over the boundary = Σ H_p: translations change no area; needs no orientation."""
+    segments, _, conormal = _boundary(surface, groups)
+    value, expected = vector_sum(groups.vertices, H_vec), vector_sum(segments, conormal)
+    tolerance = rounding(surface, _perimeters(surface, groups, edge_length))
+    outcome = Outcome(value, expected, tolerance, length_exponent=1, detail="Σ H_p against Σ η|e| over the boundary")
+    exclude_null(outcome, groups, surface, np.isnan(H_vec[0]), "H_vec")
+    return outcome
+
+
+@check
+def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_length: Column) -> Outcome:
+    """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
+    segments, midpoint, conormal = _boundary(surface, groups)
+    arm = surface.xyz - surface.base[:, None]
+    value = vector_sum(groups.vertices, np.cross(arm, H_vec, axis=0))
+    expected = vector_sum(segments, np.cross(midpoint, conormal, axis=0))
+    tolerance = rounding(surface, _perimeters(surface, groups, edge_length, _arms(surface)))
+    # Taken about the base, where rounding is least, then moved to the origin.
+    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p × H_p against Σ m × η|e|")
+    outcome.residual = np.sqrt(((value - expected) ** 2).sum(axis=1))
+    outcome.value = value + np.cross(surface.base, vector_sum(groups.vertices, H_vec))
+    outcome.expected = expected + np.cross(surface.base, vector_sum(segments, conormal))
+    exclude_null(outcome, groups, surface, np.isnan(H_vec[0]), "H_vec")
+    return outcome
+
+
+@check
+def position_balance(
+    surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, edge_length: Column
+) -> Outcome:
+    """Σ m·η|e| over the boundary = Σ p·H_p + 2 area: scaling changes area by its square; needs no orientation."""
+    segments, midpoint, conormal = _boundary(surface, groups)
+    arm = surface.xyz - surface.base[:, None]
+    value = groups.vertices.sum(dot(arm, H_vec)) + 2 * groups.faces.sum(face_area)
+    expected = segments.sum(dot(midpoint, conormal))
+    tolerance = rounding(surface, _perimeters(surface, groups, edge_length, _arms(surface)))
+    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p·H_p + 2 area against Σ m·η|e|")
+    outcome.residual = np.abs(value - expected)
+    outcome.value = value + vector_sum(groups.vertices, H_vec) @ surface.base
+    outcome.expected = expected + vector_sum(segments, conormal) @ surface.base
+    exclude_null(outcome, groups, surface, np.isnan(H_vec[0]), "H_vec")
+    return outcome
+
+
+@check
+def vector_area(surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column) -> Outcome:
+    """½ Σ a × b over the oriented half-edges that do not cancel = Σ area ν; 0 on closed surfaces."""
+    left = np.flatnonzero(surface.half_edge_sum)
+    times = surface.half_edge_sum[left]
+    base = surface.base[:, None]
+    a, b = (surface.xyz[:, end[left]] - base for end in (surface.edges.a, surface.edges.b))
+    label = None if groups.edges.label is None else groups.edges.label[left]
+    segments = Segments(label, groups.count, len(left))
+    swept = 0.5 * np.cross(a, b, axis=0) * times
+    expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)
+    span = 0.5 * np.sqrt(dot(a, a) * dot(b, b)) * np.abs(times)
+    outcome = Outcome(
+        value,
+        expected,
+        rounding(surface, groups.faces.sum(face_area) + segments.sum(span)),
+        length_exponent=2,
+        detail="Σ A_p against ½ Σ a × b",
+    )
+    if surface.unorientable_vertices is not None:
+        outcome.exclude(groups.vertices.any(surface.unorientable_vertices), "the surface has no orientation")
+    exclude_null(outcome, groups, surface, np.isnan(A_vec[0]), "A_vec")
+    return outcome

@@ -1,0 +1,130 @@
+"""What a check is: an identity with both its sides, its residual, and a tolerance that is an error bound."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import EPSILON
+from ..groups import Groups
+
+if TYPE_CHECKING:
+    from ..surface import Surface
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Check:
+    """One identity on one piece of the surface.
+
+    status: pass, fail or not_applicable (detail says why). value, expected: both sides, numbers or vectors.
+    residual: |value − expected|. tolerance: the largest residual that rounding can explain.
+    """
+
+    name: str
+    scope: str
+    status: str
+    value: float | list[float] | None
+    expected: float | list[float] | None
+    residual: float | None
+    tolerance: float | None
+    detail: str
+
+
+@dataclass
+class Outcome:
+    """An identity on every group at once.
+
+    value, expected: (G,) or (G, 3). tolerance: (G,). length_exponent: of value, expected, residual and tolerance.
+    excluded: reasons with the groups they exclude. detail: what is said of a group that is tested.
+    residual: (G,) where it is not the length of value − expected.
+    """
+
+    value: Floats
+    expected: Floats
+    tolerance: Floats
+    length_exponent: int = 0
+    detail: str | Callable[[int], str] = ""
+    residual: Floats | None = None
+    excluded: list[tuple[Mask, str]] = field(default_factory=list)
+
+    def exclude(self, mask: Mask, reason: str) -> None:
+        """Groups on which the identity does not apply; the first reason given stands."""
+        self.excluded.append((mask, reason))
+
+
+@dataclass(frozen=True)
+class CheckRule:
+    """A registered check: a function of the surface, the groups and the quantities that its parameters name."""
+
+    name: str
+    function: Callable[..., Outcome]
+    needs: tuple[str, ...]
+    statement: str
+
+    def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
+        """The check on every group."""
+        outcome = self.function(surface, groups, *(columns[name] for name in self.needs))
+        gap = outcome.value - outcome.expected
+        residual = outcome.residual
+        if residual is None:
+            residual = np.abs(gap) if gap.ndim == 1 else np.sqrt((gap * gap).sum(axis=1))
+        passed = residual <= outcome.tolerance  # NaN fails
+        shown = [
+            surface.in_file_unit(side, outcome.length_exponent)
+            for side in (outcome.value, outcome.expected, residual, outcome.tolerance)
+        ]
+        return [
+            self._one(groups, outcome, bool(passed[g]), [side[g] for side in shown], g) for g in range(groups.count)
+        ]
+
+    def _one(self, groups: Groups, outcome: Outcome, passed: bool, shown: list[Floats], group: int) -> Check:
+        scope = groups.scope(group)
+        for mask, reason in outcome.excluded:
+            if mask[group]:
+                return Check(self.name, scope, "not_applicable", None, None, None, None, reason)
+        detail = outcome.detail if isinstance(outcome.detail, str) else outcome.detail(group)
+        value, expected, residual, tolerance = (_plain(side) for side in shown)
+        return Check(self.name, scope, "pass" if passed else "fail", value, expected, residual, tolerance, detail)
+
+
+rules: dict[str, CheckRule] = {}
+
+
+def check(function: Callable[..., Outcome]) -> CheckRule:
+    """Register a check under its function's name; its parameters after surface and groups name what it needs."""
+    needs = tuple(inspect.signature(function).parameters)[2:]
+    statement = inspect.cleandoc(function.__doc__ or "")
+    rule = CheckRule(function.__name__, function, needs, statement)
+    rules[rule.name] = rule
+    return rule
+
+
+def rounding(surface: Surface, absolute: Floats) -> Floats:
+    """The error bound of a pairwise sum over the mesh: (16 + log₂ N) ε times the sum of the absolute terms."""
+    return (16 + math.log2(3 * surface.n_faces + surface.n_vertices)) * EPSILON * absolute
+
+
+def exclude_null(outcome: Outcome, groups: Groups, surface: Surface, null: Mask, what: str) -> None:
+    """An identity cannot be tested where one of its terms is undefined at a vertex that a face uses."""
+    missing = null & surface.referenced
+    if missing.any():
+        first = int(np.flatnonzero(missing)[0])
+        count = int(np.count_nonzero(missing))
+        some = f"vertex {first}" if count == 1 else f"{count} vertices, the first is {first}"
+        outcome.exclude(groups.vertices.any(missing), f"{what} is undefined at {some}")
+
+
+def _plain(value: Any) -> Any:
+    """A number or a list of numbers; null where no double holds it."""
+    if np.ndim(value):
+        return [_plain(x) for x in value]
+    return float(value) if np.isfinite(value) else None

@@ -1,0 +1,61 @@
+"""First variations: gradients of area and volume with respect to the vertices."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import dot
+from ..census import census
+from ..declare import Column, VectorColumn
+from ..groups import Groups
+from ..surface import Surface
+from ..totals import volumes
+from .balance import vector_sum
+from .base import Outcome, check, exclude_null, rounding
+
+
+@check
+def area_gradient(
+    surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, edge_length: Column
+) -> Outcome:
+    """Σ ∇_p area = 0 and Σ p·∇_p area = 2 area: area is invariant under translation and of degree two in scale."""
+    arm = surface.xyz - surface.base[:, None]
+    distance = np.sqrt(dot(arm, arm))
+    value = groups.vertices.sum(dot(arm, area_gradient))
+    expected = 2 * groups.faces.sum(face_area)
+    far = np.maximum(distance[surface.edges.a], distance[surface.edges.b])
+    perimeter = edge_length * surface.edges.valence
+    tolerance = rounding(surface, groups.edges.sum(perimeter * far))
+    drift = np.sqrt((vector_sum(groups.vertices, area_gradient) ** 2).sum(axis=1))
+    drift_tolerance = rounding(surface, groups.edges.sum(perimeter))
+
+    shown = [surface.in_file_unit(side, 1) for side in (drift, drift_tolerance)]
+
+    def detail(g: int) -> str:
+        return f"Σ p·∇_p area against 2 area; |Σ ∇_p area| = {shown[0][g]:.3g} (allowed {shown[1][g]:.3g})"
+
+    # Both must hold: a drift beyond its bound is carried into the residual, in units of its own bound.
+    residual = np.abs(value - expected)
+    over = drift > drift_tolerance
+    residual = np.where(over, np.maximum(residual, tolerance * drift / drift_tolerance), residual)
+    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)
+    exclude_null(outcome, groups, surface, np.isnan(area_gradient[0]), "area_gradient")
+    return outcome
+
+
+@check
+def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column) -> Outcome:
+    """Σ p·A_p = 3 vol on closed orientable surfaces."""
+    counts = census(surface, groups)
+    arm = surface.xyz - surface.base[:, None]
+    distance = np.sqrt(dot(arm, arm))
+    value = groups.vertices.sum(dot(arm, A_vec))
+    expected = 3 * volumes(surface, groups)
+    far = distance[surface.faces].max(axis=1)
+    tolerance = rounding(surface, groups.faces.sum(face_area * far))
+    outcome = Outcome(value, expected, tolerance, length_exponent=3, detail="Σ p·A_p against three times the volume")
+    outcome.exclude(~counts.closed, "the surface is not closed")
+    outcome.exclude(~counts.orientable, "the surface has no orientation")
+    outcome.exclude(np.isnan(expected), "the oriented faces do not cancel at every edge")
+    exclude_null(outcome, groups, surface, np.isnan(A_vec[0]), "A_vec")
+    return outcome

@@ -1,0 +1,198 @@
+"""`curvcli analyze`: passes to tables, coloured meshes and the report."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..errors import CurvcliError, UsageError
+from . import options
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+    from ..output.write import Appearance
+
+
+@click.command("analyze", short_help="Compute curvatures: tables, coloured meshes, the report.")
+@click.argument("meshes", metavar="MESH...", nargs=-1)
+@click.option(
+    "-o",
+    "--output",
+    "outputs",
+    metavar="PATH",
+    multiple=True,
+    help="Write .csv .tsv .parquet .npz (table), .ply .obj (coloured mesh) or .json (report); repeatable. "
+    "With several meshes, {stem} stands for each one's name. `-` is stdout.",
+)
+@options.passes
+@options.reading
+@click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+@click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")
+@click.option("--schema", is_flag=True, help="Print the JSON Schema of the report and stop.")
+@click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
+@click.option("--color-by", metavar="COLUMN", help="Column that colours the mesh.")
+@click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis.")
+@click.option("--range", "value_range", metavar="LO:HI|pNN", help="Ends of the colour map, or a central percentage.")
+@click.option(
+    "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
+)
+@options.force
+@options.strict
+@options.talking
+def command(meshes: tuple[str, ...], as_json: bool, get: str | None, schema: bool, **settings: Any) -> int:
+    """Compute the curvatures of each MESH, check the identities they keep, and say so.
+
+    Without -o, --json or --get, a summary goes to stdout. Outputs appear whole or not at all.
+
+    \b
+      curvcli analyze bunny.obj
+      curvcli analyze bunny.obj --get totals.K
+      curvcli analyze bunny.obj -o k.csv -o k.ply -o k.json
+      curvcli analyze scans/*.ply -o 'out/{stem}.csv'
+      curvcli analyze - --input-format ply -o - --format csv < bunny.ply
+    """
+    if schema:
+        from ..report.model import schema as json_schema
+
+        sys.stdout.buffer.write(json_schema())
+        return 0
+    if not meshes:
+        raise click.UsageError("no MESH given", click.get_current_context())
+    if as_json and get is not None:
+        raise click.UsageError("--json and --get both want stdout; choose one", click.get_current_context())
+    return Run(meshes, as_json, get, **settings).all()
+
+
+class Run:
+    """One call of `analyze`: its options checked before any work, then mesh after mesh."""
+
+    def __init__(
+        self,
+        meshes: tuple[str, ...],
+        as_json: bool,
+        get: str | None,
+        *,
+        outputs: tuple[str, ...],
+        passes: tuple[str, ...],
+        weld: str,
+        force: bool,
+        strict: bool,
+        quiet: bool,
+        verbose: int,
+        stream_format: str | None,
+        color_by: str | None,
+        cmap: str | None,
+        value_range: str | None,
+        precision: str,
+        input_format: str | None,
+        max_faces: int | None,
+        max_bytes: int | None,
+        **conventions: Any,
+    ) -> None:
+        from ..output.formats import format_of
+        from ..output.write import Appearance, check_appearance
+        from ..pipeline import resolve
+
+        self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
+        self.weld = options.welding(weld)
+        self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
+        self.passes = resolve(passes or ("core",))
+        self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
+        self.stream_format = stream_format
+        self.appearance: Appearance = Appearance(color_by, cmap, value_range, precision)
+        check_appearance(self.appearance, self.passes)
+        self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
+        for path in self.paths[0]:
+            format_of(path, name=stream_format if path == "-" else None, kinds=("table", "mesh", "report"))
+        self.to_stdout = "-" in outputs
+        if self.to_stdout and (as_json or get is not None):
+            raise UsageError("-o - and --json or --get both want stdout; choose one")
+
+    def all(self) -> int:
+        """Analyse every mesh; one bad mesh does not stop the rest."""
+        from ..output.atomic import Outputs
+        from .main import exit_code, internal, say, worst
+
+        codes, reports = [], []
+        # Every output of every mesh is checked before the first mesh is read.
+        with Outputs([path for paths in self.paths for path in paths], self.force) as everything:
+            for mesh, paths in zip(self.meshes, self.paths, strict=True):
+                try:
+                    analysis = self.one(mesh, paths, everything)
+                except CurvcliError as error:
+                    if len(self.meshes) == 1 or isinstance(error, UsageError):
+                        raise
+                    say(str(error))
+                    codes.append(exit_code(error))
+                    continue
+                except (MemoryError, OSError):
+                    raise
+                except Exception as error:
+                    if len(self.meshes) == 1:
+                        raise
+                    say(f"{mesh}: {internal(error)}")
+                    codes.append(exit_code(error))
+                    continue
+                reports.append(self.tell(analysis))
+                codes.append(1 if self.strict and not analysis.passed else 0)
+            everything.commit()
+        if self.as_json:
+            from ..report.model import encode
+
+            sys.stdout.buffer.write(encode(reports[0] if len(self.meshes) == 1 else reports))
+        return worst(codes)
+
+    def one(self, mesh: str, paths: list[str], outputs: Any) -> Analysis:
+        """Load, compute, write."""
+        from ..analysis import analyze
+        from ..loading.surfaces import load
+        from ..output.write import write_into
+        from .progress import phase
+
+        with phase(f"reading {mesh}", self.quiet) as reading:
+            source = sys.stdin.buffer if mesh == "-" else mesh
+            surface = load(source, weld=self.weld, orient=self.conventions["orient"], **self.limits)
+        with phase(f"computing {mesh}", self.quiet) as computing:
+            analysis = analyze(surface, self.passes, weld=self.weld, **self.conventions)
+        with phase(f"checking {mesh}", self.quiet) as checking:
+            _ = analysis.checks
+        analysis.timings |= {"read": reading.seconds, "compute": computing.seconds, "check": checking.seconds}
+        if paths:
+            with phase(f"writing {mesh}", self.quiet):
+                analysis.extra_notices += write_into(outputs, analysis, paths, self.appearance, self.stream_format)
+        return analysis
+
+    def tell(self, analysis: Analysis) -> Any:
+        """What goes to stdout of one analysis; the report where it is wanted later."""
+        if self.as_json:
+            from ..report.model import model
+
+            return model(analysis)
+        if self.get is not None:
+            from ..report.lookup import look_up
+
+            click.echo(look_up(analysis.report(), self.get))
+        elif not self.to_stdout and not self.quiet:
+            from ..report.text import show
+
+            show(analysis, self.verbose)
+        return None
+
+
+def expand(output: str, mesh: str, meshes: int) -> str:
+    """An output's path for one mesh.
+
+    Errors: UsageError when several meshes would share one output.
+    """
+    if "{stem}" not in output:
+        if meshes > 1 and output != "-":
+            raise UsageError(f"{output}: {meshes} meshes would share this output; put {{stem}} into its name")
+        return output
+    name = os.path.basename(mesh)
+    for suffix in (".gz", ".obj", ".ply", ".stl"):
+        if name.lower().endswith(suffix):
+            name = name[: -len(suffix)]
+    return output.replace("{stem}", name if mesh != "-" else "stdin")

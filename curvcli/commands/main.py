@@ -1,0 +1,135 @@
+"""The entry point: finds the command without importing the others, and turns causes into exit codes."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from importlib import import_module
+from typing import NoReturn
+
+import click
+
+from .._version import __version__
+from ..errors import CurvcliError, InputError, NoMatchError, OutputError, UsageError
+
+COMMANDS = ("analyze", "passes", "sample")
+
+OK, FAILED_CHECK, USAGE, INPUT, OUTPUT, NO_MATCH, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130
+
+_CODES: tuple[tuple[type[BaseException], int], ...] = (
+    (UsageError, USAGE),
+    (InputError, INPUT),
+    (OutputError, OUTPUT),
+    (NoMatchError, NO_MATCH),
+)
+
+# With several inputs the worst decides.
+WORST_FIRST = (INTERNAL, OUTPUT, INPUT, FAILED_CHECK, OK)
+
+
+def exit_code(error: BaseException) -> int:
+    """The exit code of a cause."""
+    return next((code for cause, code in _CODES if isinstance(error, cause)), INTERNAL)
+
+
+def worst(codes: list[int]) -> int:
+    """The exit code of several inputs."""
+    return min(codes, key=WORST_FIRST.index, default=OK)
+
+
+class LazyGroup(click.Group):
+    """A group whose commands are imported when they are named."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The commands in the order of the help."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import one command."""
+        if cmd_name not in COMMANDS:
+            return None
+        found: click.Command = import_module(f"curvcli.commands.{cmd_name}").command
+        return found
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Name the nearest commands when there is no such command."""
+        name = args[0] if args else ""
+        if name and not name.startswith("-") and name not in COMMANDS:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, COMMANDS, 1)
+            guess = f"; did you mean {near[0]}?" if near else ""
+            raise click.UsageError(f"no such command {name!r}, expected one of {', '.join(COMMANDS)}{guess}", ctx)
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, "-V", "--version", message="curvcli %(version)s")
+def cli() -> None:
+    """Curvatures of triangle meshes (OBJ, PLY, STL) that keep their integral relations exactly.
+
+    Gauss and mean curvature, areas and Willmore energies at every vertex, after J. M. Sullivan,
+    Curvatures of Smooth and Discrete Surfaces; each with the identity that proves it, checked.
+
+    \b
+      curvcli analyze bunny.obj                      a summary with its checks
+      curvcli analyze bunny.obj -o k.csv -o k.ply    a table and a coloured mesh
+      curvcli passes                                 every quantity there is
+      curvcli sample torus -o torus.ply              a surface to try it on
+    """
+
+
+def main() -> NoReturn:
+    """Run curvcli and exit with the code of the interface."""
+    code = OK
+    try:
+        result = cli.main(standalone_mode=False)
+        code = result if isinstance(result, int) else OK
+        sys.stdout.flush()
+    except click.exceptions.Exit as finished:
+        code = finished.exit_code
+    except click.UsageError as error:
+        path = error.ctx.command_path if error.ctx else "curvcli"
+        say(f"{error.format_message().rstrip('.')}; `{path} --help` tells more")
+        code = USAGE
+    except click.ClickException as error:
+        say(error.format_message())
+        code = USAGE
+    except CurvcliError as error:
+        say(str(error))
+        code = exit_code(error)
+    except BrokenPipeError:
+        # Whoever read our output has seen enough; keep Python from complaining about it at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (KeyboardInterrupt, click.Abort):
+        say("interrupted")
+        code = INTERRUPTED
+    except MemoryError:
+        say("out of memory; a machine with more memory, or a smaller mesh, is needed")
+        code = INTERNAL
+    except Exception as error:
+        code = INTERNAL
+        say(internal(error))
+    sys.exit(code)
+
+
+def internal(error: BaseException) -> str:
+    """One line for a defect of the program; the whole traceback with -vv."""
+    if any(argument == "-vv" for argument in sys.argv):
+        traceback.print_exception(error)
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    place = f"{os.path.basename(where.filename)}:{where.lineno}"
+    return f"internal error: {type(error).__name__}: {one_line(str(error))} ({place}); -vv shows the traceback"
+
+
+def one_line(text: str) -> str:
+    """Text on one line, control characters shown."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in " ".join(text.split("\n")))
+
+
+def say(message: str) -> None:
+    """One line on stderr."""
+    click.echo(f"curvcli: {one_line(message)}", err=True)

@@ -1,0 +1,88 @@
+"""Every option that more than one command has, once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import click
+
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+quiet = click.option("-q", "--quiet", is_flag=True, help="Say nothing but errors.")
+verbose = click.option("-v", "--verbose", count=True, help="Say more; -vv shows tracebacks.")
+force = click.option("--force", is_flag=True, help="Overwrite outputs that exist.")
+passes = click.option(
+    "-p",
+    "--pass",
+    "passes",
+    metavar="NAME[,NAME]",
+    multiple=True,
+    help="Columns to compute, or a preset: topology, core (default), paper, all. `curvcli passes` lists them.",
+)
+area = click.option(
+    "--area",
+    type=click.Choice(["barycentric", "mixed", "voronoi"]),
+    default="barycentric",
+    show_default=True,
+    help="Area of the vertex that K_density divides by.",
+)
+mean = click.option(
+    "--mean",
+    type=click.Choice(["sum", "average"]),
+    default="sum",
+    show_default=True,
+    help="Whether H is k1 + k2 (2/r on a sphere) or their average.",
+)
+orient = click.option(
+    "--orient",
+    type=click.Choice(["file", "outward"]),
+    default="file",
+    show_default=True,
+    help="Keep the file's orientation, or turn closed patches of negative volume.",
+)
+weld = click.option(
+    "--weld",
+    metavar="auto|none|exact|TOL",
+    default="auto",
+    show_default=True,
+    help="Merge vertices at equal positions; auto: STL exact, OBJ and PLY not; TOL: relative to the bounding box.",
+)
+unit = click.option("--unit", metavar="NAME", help="Name of the unit of length, for tables and legends.")
+input_format = click.option(
+    "--input-format", type=click.Choice(["obj", "ply", "stl"]), help="Format of the input, whatever its name."
+)
+max_faces = click.option("--max-faces", type=click.IntRange(1), help="Refuse meshes with more polygons than this.")
+max_bytes = click.option("--max-bytes", type=click.IntRange(1), help="Refuse files larger than this, unpacked.")
+strict = click.option("--strict", is_flag=True, help="Exit with 1 when a check fails.")
+
+
+def together(*options: Decorator) -> Decorator:
+    """Several options as one decorator, in the order of the help."""
+
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+reading = together(area, mean, orient, weld, unit, input_format, max_faces, max_bytes)
+talking = together(quiet, verbose)
+
+
+def welding(text: str) -> str | float:
+    """The value of --weld.
+
+    Errors: click.BadParameter for what is neither a word it knows nor a positive number.
+    """
+    if text in ("auto", "none", "exact"):
+        return text
+    try:
+        tolerance = float(text)
+    except ValueError:
+        tolerance = -1.0
+    if not 0 < tolerance < 1:
+        raise click.BadParameter(f"{text!r} is not auto, none, exact or a number between 0 and 1", param_hint="--weld")
+    return tolerance

@@ -1,0 +1,48 @@
+"""Gauss curvature as angle defect, and its counterpart on the boundary."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..declare import Column, Flags, curvature_pass
+from ..surface import Surface
+from .star import null_where
+
+
+@curvature_pass(public=False)
+def general_defect(surface: Surface, angle_sum: Column, coincident: Flags) -> Column:
+    """2π − Σθ − (π/2) Σ_{e at p} (2 − n_e): the defect of any triangle complex, pinched or with many faces at an edge.
+
+    Every face at p has two edges there, so the last sum is 2 (deg − faces). Null where a corner coincides with another.
+    """
+    excess = surface.degree - surface.corner_count
+    defect = (2 * np.pi - angle_sum) - np.pi * excess
+    return null_where(coincident | ~surface.referenced, defect)
+
+
+@curvature_pass(
+    symbol="K_p",
+    formula="2π − Σθ_i",
+    total="K",
+    signed=True,
+    preserves="gauss_bonnet: ΣK + Σκ_g = 2πχ; holonomy about p is a rotation by K_p",
+    boundary="null, the defect is kappa_g there",
+    source="Sullivan, Discrete surfaces",
+)
+def K(surface: Surface, general_defect: Column) -> Column:
+    """Gauss curvature of the star: its angle defect, a measure in radians."""
+    return null_where(surface.boundary, general_defect)
+
+
+@curvature_pass(
+    symbol="κ_g",
+    formula="π − Σθ_i",
+    total="kappa_g",
+    signed=True,
+    preserves="gauss_bonnet: ΣK + Σκ_g = 2πχ",
+    boundary="the turning of the boundary at p, positive where the surface is convex in itself; null inside",
+    source="Sullivan, Discrete surfaces",
+)
+def kappa_g(surface: Surface, general_defect: Column) -> Column:
+    """Geodesic curvature of the boundary at the vertex: how far it turns, a measure in radians."""
+    return null_where(~surface.boundary, general_defect)

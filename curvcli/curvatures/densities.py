@@ -1,0 +1,22 @@
+"""Curvature per area."""
+
+from __future__ import annotations
+
+from ..declare import Column, curvature_pass
+from ..surface import Surface
+from .star import ratio
+
+
+@curvature_pass(
+    symbol="K",
+    formula="K_p / area, the area chosen by --area",
+    kind="density",
+    length_exponent=-2,
+    signed=True,
+    preserves="Σ K_density · area = ΣK inside",
+    boundary="null",
+    source="Sullivan, Discrete surfaces",
+)
+def K_density(surface: Surface, K: Column, cell_area: Column) -> Column:
+    """Gauss curvature per area; exact in sum, but on irregular triangulations it does not converge pointwise."""
+    return ratio(K, cell_area, surface.interior)

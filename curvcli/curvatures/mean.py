@@ -1,0 +1,128 @@
+"""Areas, vector areas and mean curvature of stars."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import cross, dot, triangles
+from ..declare import Column, Flags, VectorColumn, curvature_pass
+from ..surface import Surface
+from ..topology import Index
+from .star import null_where, ratio
+
+# |A_vec| below this part of the star's area has lost its direction to rounding.
+_FLAT = 1e-12
+
+
+@curvature_pass(
+    symbol="A_p",
+    formula="⅓ Σ area(T)",
+    length_exponent=2,
+    preserves="ΣA_p = area",
+    boundary="same",
+    source="Sullivan, Discrete surfaces",
+)
+def A(surface: Surface, star_area: Column) -> Column:
+    """Area of the vertex: a third of its star's."""
+    return null_where(~surface.referenced, star_area)
+
+
+@curvature_pass(
+    symbol="**A**_p",
+    formula="⅓ Σ area(T) ν_T = ∇_p volume",
+    length_exponent=2,
+    parity="odd",
+    vector=True,
+    total="A_vec",
+    preserves="volume: Σ p·A_p = 3 vol on closed surfaces; vector_area",
+    boundary="same",
+    source="Sullivan, Discrete surfaces",
+)
+def A_vec(surface: Surface, star_vector: VectorColumn) -> VectorColumn:
+    """Vector area of the vertex: the gradient of the volume; null on patches without an orientation."""
+    hidden = ~surface.referenced
+    if surface.unorientable_vertices is not None:
+        hidden = hidden | surface.unorientable_vertices
+    return null_where(hidden, star_vector)
+
+
+@curvature_pass(
+    symbol="∇_p area",
+    formula="½ Σ (cot α + cot β)(p − p_i)",
+    length_exponent=1,
+    vector=True,
+    preserves="area_gradient: Σ∇_p area = 0 and Σ p·∇_p area = 2 area",
+    boundary="one cotangent on a boundary edge",
+    source="Sullivan, Discrete surfaces",
+)
+def area_gradient(surface: Surface, star_gradient: VectorColumn, degenerate: Flags) -> VectorColumn:
+    """Gradient of the area with respect to the vertex."""
+    return null_where(degenerate | ~surface.referenced, star_gradient)
+
+
+@curvature_pass(
+    symbol="**H**_p",
+    formula="½ Σ **H**_e over the edges at p with n_e ≥ 2, **H**_e = −Σ η_i|e|; inside −∇_p area",
+    length_exponent=1,
+    mean_degree=1,
+    vector=True,
+    total="H_vec",
+    preserves="force_balance: Σ_∂ η|e| = Σ H_p; torque_balance; position_balance",
+    boundary="same (a curvature measure): the edges inside the surface count, those of the boundary do not",
+    source="Sullivan, Discrete surfaces",
+)
+def H_vec(surface: Surface, area_gradient: VectorColumn) -> VectorColumn:
+    """Mean curvature vector of the vertex, a measure; points inwards where the surface is convex."""
+    vector = -area_gradient
+    half_edges = surface.boundary_half_edges
+    if len(half_edges):
+        half = conormals(surface, half_edges)
+        half *= 0.5
+        corner, face = half_edges % 3, half_edges // 3
+        for end in (surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]):
+            for component, part in zip(vector, half, strict=True):
+                np.add.at(component, end, part)
+    return vector
+
+
+def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
+    """(3, n) outward unit conormals times length, η|e| = e × ν, of the given half-edges in their own faces."""
+    t = triangles(surface.xyz, surface.faces[half_edges // 3])
+    edge = np.choose(half_edges % 3, np.array([t.u, t.v, [-x for x in t.w]])[:, :, :])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.array(cross(edge, t.normal)) / t.twice_area
+
+
+@curvature_pass(
+    symbol="h_p",
+    formula="|**H**_p| / |**A**_p|",
+    kind="density",
+    length_exponent=-1,
+    mean_degree=1,
+    preserves="the first variation: area changes h times as fast as volume along **A**",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces",
+)
+def h(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+    """Mean curvature of the vertex without its sign; null where |A_vec| < 1e-12 A."""
+    length = np.sqrt(dot(star_vector, star_vector))
+    return ratio(np.sqrt(dot(H_vec, H_vec)), length, surface.interior & (length >= _FLAT * star_area))
+
+
+@curvature_pass(
+    symbol="H",
+    formula="h_p, positive where **H**_p·**A**_p < 0",
+    kind="density",
+    length_exponent=-1,
+    mean_degree=1,
+    parity="odd",
+    signed=True,
+    preserves="see h",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces",
+)
+def h_signed(surface: Surface, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
+    """The mean curvature H = κ₁ + κ₂ with its sign: +2/r on a sphere of radius r seen from outside."""
+    signed = np.where(dot(H_vec, star_vector) < 0, h, 0.0 - h)
+    hidden = surface.unorientable_vertices
+    return signed if hidden is None else null_where(hidden, signed)

@@ -1,0 +1,50 @@
+"""Sums over the star of each vertex, all from one sweep over the faces."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import star_sums as sweep
+from ..declare import Column, Flags, Quantity, curvature_pass
+from ..surface import Surface
+
+
+def null_where(mask: Flags, values: Column) -> Column:
+    """A copy of a column (or a (3, n) vector column) with NaN where the mask holds."""
+    return np.where(mask, np.nan, values)
+
+
+def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
+    """The quotient where it may be used and the denominator is positive, NaN elsewhere."""
+    quotient = np.full(len(numerator), np.nan)
+    np.divide(numerator, denominator, where=usable & (denominator > 0), out=quotient)
+    return quotient
+
+
+@curvature_pass(
+    provides=(
+        Quantity("angle_sum", public=False),
+        Quantity("star_area", public=False, length_exponent=2),
+        Quantity("star_vector", public=False, vector=True, length_exponent=2, parity="odd"),
+        Quantity("star_gradient", public=False, vector=True, length_exponent=1),
+        Quantity("face_area", on="face", public=False, length_exponent=2, total="area"),
+        Quantity("degenerate_face", on="face", kind="flag", public=False),
+        Quantity("coincident", kind="flag", public=False),
+        Quantity("degenerate", kind="flag", public=False),
+    )
+)
+def star_sums(surface: Surface) -> tuple[Column | Flags, ...]:
+    """Σθ, ⅓Σ area, ⅓Σ area ν with the star's own orientation, ∇_p area; face areas; where they have no meaning."""
+    sums = sweep(surface)
+    degenerate = np.zeros(surface.n_vertices, bool)
+    degenerate[surface.faces[sums.degenerate_face].ravel()] = True
+    return (
+        sums.angle_sum,
+        sums.area,
+        sums.vector,
+        sums.gradient,
+        sums.face_area,
+        sums.degenerate_face,
+        sums.coincident,
+        degenerate,
+    )

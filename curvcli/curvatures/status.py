@@ -1,0 +1,36 @@
+"""What kind of vertex each row is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..declare import Codes, Counts, Flags, curvature_pass
+from ..surface import STATUS, Surface
+
+
+@curvature_pass(
+    symbol="status",
+    formula="the first that applies: unreferenced, nonmanifold, degenerate, boundary, interior",
+    kind="label",
+    boundary="boundary: some edge at the vertex has one face",
+    source="curvcli conventions",
+    labels=STATUS,
+)
+def status(surface: Surface, degenerate: Flags) -> Codes:
+    """Which rules apply at the vertex; codes index `interior, boundary, degenerate, nonmanifold, unreferenced`."""
+    code = np.zeros(surface.n_vertices, np.int8)
+    for value, mask in enumerate((surface.boundary, degenerate, surface.nonmanifold, ~surface.referenced), start=1):
+        code[mask] = value
+    return code
+
+
+@curvature_pass(
+    symbol="deg p",
+    formula="number of edges at p",
+    kind="count",
+    boundary="same",
+    source="curvcli conventions",
+)
+def degree(surface: Surface) -> Counts:
+    """Number of edges at the vertex, 0 where no face uses it."""
+    return surface.degree

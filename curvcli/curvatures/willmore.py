@@ -1,0 +1,36 @@
+"""Willmore densities: the square of the mean curvature integrated over the star, in its discretisations."""
+
+from __future__ import annotations
+
+from ..blocks import dot
+from ..declare import Column, VectorColumn, curvature_pass
+from ..surface import Surface
+from .star import ratio
+
+
+@curvature_pass(
+    symbol="h_p² A_p",
+    formula="h_p² A_p",
+    mean_degree=2,
+    total="willmore",
+    preserves="Σ → 16π on spheres, 8π² on the Clifford torus; never below willmore_hks",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces",
+)
+def willmore(h: Column, star_area: Column) -> Column:
+    """Willmore energy of the star from h, a measure without unit."""
+    return h * h * star_area
+
+
+@curvature_pass(
+    symbol="|**H**_p|²/A_p",
+    formula="|**H**_p|² / A_p",
+    mean_degree=2,
+    total="willmore_hks",
+    preserves="Σ → 16π on spheres, 8π² on the Clifford torus",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces; Hsu, Kusner and Sullivan, Minimizing the squared mean curvature",
+)
+def willmore_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Column:
+    """Willmore energy of the star from the mean curvature vector and the area."""
+    return ratio(dot(H_vec, H_vec), star_area, surface.interior)

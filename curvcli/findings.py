@@ -1,0 +1,96 @@
+"""What a mesh has that its user should know: defects counted, with the first few and the way out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .census import duplicate_faces, duplicate_vertices
+from .errors import Notice
+from .surface import Surface
+
+
+def _some(indices: NDArray[Any]) -> tuple[int, ...]:
+    return tuple(int(i) for i in indices[:5])
+
+
+def of_surface(surface: Surface, columns: Mapping[str, Any]) -> list[Notice]:
+    """The notices of a surface, from the gravest down."""
+    return [notice for notice in _all(surface, columns) if notice.count]
+
+
+def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
+    edges = np.flatnonzero(surface.nonmanifold_edges)
+    yield Notice(
+        "nonmanifold_edges",
+        len(edges),
+        "edges where more than two faces meet; densities at their ends are undefined",
+        examples=_some(edges),
+    )
+    vertices = np.flatnonzero(surface.split_stars)
+    yield Notice(
+        "nonmanifold_vertices",
+        len(vertices),
+        "vertices whose star is not one fan; densities there are undefined",
+        examples=_some(vertices),
+    )
+    if surface.file is not None and surface.file.welded_to is not None:
+        merged = np.flatnonzero(surface.file.welded_to >= 0)
+        yield Notice("welded_vertices", len(merged), "vertices were merged into others", examples=_some(merged))
+        loose = ~surface.referenced & (surface.file.welded_to < 0)
+    else:
+        loose = ~surface.referenced
+    unreferenced = np.flatnonzero(loose)
+    yield Notice(
+        "unreferenced_vertices",
+        len(unreferenced),
+        "vertices that no face uses; their rows are empty",
+        examples=_some(unreferenced),
+    )
+    faces = np.flatnonzero(columns["degenerate_face"])
+    yield Notice(
+        "degenerate_faces",
+        len(faces),
+        "faces without area; the mean curvature is undefined at their corners",
+        examples=_some(faces),
+    )
+    faces = duplicate_faces(surface)
+    yield Notice("duplicate_faces", len(faces), "faces with the same corners as an earlier one", examples=_some(faces))
+    vertices = duplicate_vertices(surface)
+    yield Notice(
+        "duplicate_vertices",
+        len(vertices),
+        "vertices at exactly the position of an earlier one",
+        hint="--weld exact merges them",
+        examples=_some(vertices),
+    )
+    conflicts = np.flatnonzero(surface.winding_conflicts)
+    flipped = surface.orientation.flipped
+    yield Notice(
+        "inconsistent_winding",
+        len(conflicts),
+        f"edges whose two faces run along them the same way; {flipped} faces were turned for the computation",
+        examples=_some(conflicts),
+    )
+    without = int(np.count_nonzero(~surface.orientation.orientable))
+    yield Notice("not_orientable", without, "patches have no orientation; signed mean curvature is undefined there")
+    turned = np.flatnonzero(surface.inside_out)
+    yield Notice(
+        "inside_out",
+        len(turned),
+        "closed patches were turned outwards"
+        if surface.orient == "outward"
+        else "closed patches have negative volume: their normals point inwards and signs are reversed",
+        hint=None if surface.orient == "outward" else "--orient outward turns them",
+    )
+    if "kappa_clamped" in columns:
+        clamped = np.flatnonzero(columns["kappa_clamped"])
+        yield Notice(
+            "clamped_radicand",
+            len(clamped),
+            "vertices with H² < 4K; their principal curvatures are taken equal",
+            examples=_some(clamped),
+        )

@@ -1,0 +1,63 @@
+"""From whatever a caller has — a path, a trimesh, a pair of arrays — to a Surface."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, BinaryIO, Literal
+
+from ..errors import InputError
+from ..surface import Surface
+from .model import MeshFile
+
+Orient = Literal["file", "outward"]
+
+
+def load(
+    source: str | os.PathLike[str] | BinaryIO,
+    *,
+    weld: str | float = "auto",
+    orient: Orient = "file",
+    input_format: str | None = None,
+    max_faces: int | None = None,
+    max_bytes: int | None = None,
+) -> Surface:
+    """Read an OBJ, PLY or STL file as the surface it describes: rows in file order, seams never cut, nothing repaired.
+
+    weld: `auto` (STL by exact position, OBJ and PLY not at all), `none`, `exact`, or a tolerance relative to the
+    diagonal of the bounding box. orient: `outward` turns closed patches of negative volume.
+    Errors: InputError, one line with file, place, expectation and way out.
+    """
+    from .read import read_mesh_file
+
+    file = read_mesh_file(source, input_format=input_format, weld=weld, max_faces=max_faces, max_bytes=max_bytes)
+    return from_file(file, orient)
+
+
+def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
+    """The surface of a mesh file, its polygons triangulated."""
+    from .polygons import triangulate
+
+    try:
+        faces, polygon, notices = triangulate(file)
+        return Surface(file.xyz.T, faces, orient=orient, polygon=polygon, file=file, notices=(*file.notices, *notices))
+    except InputError as error:
+        error.path = error.path or file.path
+        raise
+
+
+def as_surface(given: Any, *, orient: Orient = "file", weld: str | float = "auto") -> Surface:
+    """A Surface from a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays.
+
+    Errors: InputError for a mesh that is no surface; TypeError for anything else.
+    """
+    if isinstance(given, Surface):
+        if given.orient == orient:
+            return given
+        return Surface(given.points, given.faces, orient=orient, polygon=given.polygon, file=given.file)
+    if isinstance(given, str | os.PathLike) or hasattr(given, "read"):
+        return load(given, orient=orient, weld=weld)
+    if hasattr(given, "vertices") and hasattr(given, "faces"):
+        return Surface(given.vertices, given.faces, orient=orient)
+    if isinstance(given, tuple) and len(given) == 2:
+        return Surface(*given, orient=orient)
+    raise TypeError(f"expected a Surface, a path, a trimesh.Trimesh or (points, faces), not {type(given).__name__}")

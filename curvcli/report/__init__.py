@@ -1,0 +1,1 @@
+"""The report: its model (the JSON) and the ways it is shown."""

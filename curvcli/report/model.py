@@ -1,0 +1,252 @@
+"""The report as JSON: one typed model from which encoding, decoding and the JSON Schema follow."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+
+from .._version import __version__
+from ..census import Census, Genus, census, duplicate_faces, duplicate_vertices, genus
+from ..declare import passes
+from ..groups import Groups
+from ..surface import Surface
+from ..totals import constant_mean_curvature
+from .statistics import ColumnStatistics, statistics
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+
+Value = float | list[float | None] | None
+
+
+class Input(msgspec.Struct):
+    """Where the mesh came from; null for arrays made in memory."""
+
+    path: str | None
+    sha256: str | None
+    format: str | None
+    vertices: int
+    polygons: int
+
+
+class Topology(msgspec.Struct, omit_defaults=True):
+    """Counts of the triangulated surface, referenced vertices only."""
+
+    vertices: int
+    edges: int
+    faces: int
+    euler_characteristic: int
+    components: int
+    boundary_loops: int | None
+    boundary_edges: int
+    genus: int | None
+    crosscaps: int | None
+    closed: bool
+    manifold: bool
+    orientable: bool
+    consistent_winding: bool
+    nonmanifold_edges: int
+    nonmanifold_vertices: int
+    degenerate_faces: int
+    duplicate_faces: int
+    unreferenced_vertices: int
+    duplicate_vertices: int
+
+
+class Cmc(msgspec.Struct):
+    """Nearness to constant mean curvature."""
+
+    H: float | None
+    residual_max: float | None
+
+
+class Minimal(msgspec.Struct):
+    """Nearness to a minimal surface."""
+
+    H_vec_max: float | None
+
+
+class Piece(msgspec.Struct, omit_defaults=True):
+    """The whole surface or one component of it."""
+
+    topology: Topology
+    totals: dict[str, Value]
+    cmc: Cmc | msgspec.UnsetType = msgspec.UNSET
+    minimal: Minimal | msgspec.UnsetType = msgspec.UNSET
+
+
+class CheckRow(msgspec.Struct):
+    """One identity on one scope: `pass`, `fail` or `not_applicable` with the reason in `detail`."""
+
+    name: str
+    scope: str
+    status: str
+    value: Value
+    expected: Value
+    residual: float | None
+    tolerance: float | None
+    detail: str
+
+
+class Remark(msgspec.Struct):
+    """Something accepted but worth knowing."""
+
+    code: str
+    count: int
+    message: str
+    hint: str | None
+    examples: list[int]
+
+
+class Report(msgspec.Struct, omit_defaults=True):
+    """The report of `curvcli analyze`; what was not computed is absent, what is undefined is null."""
+
+    schema_version: int
+    curvcli: str
+    input: Input
+    conventions: dict[str, str | None]
+    topology: Topology
+    totals: dict[str, Value]
+    cmc: Cmc | msgspec.UnsetType
+    minimal: Minimal | msgspec.UnsetType
+    components: list[Piece]
+    columns: dict[str, ColumnStatistics]
+    checks: list[CheckRow]
+    warnings: list[Remark]
+    timings: dict[str, float]
+
+
+def build(analysis: Analysis) -> dict[str, Any]:
+    """The report as plain Python values."""
+    found: dict[str, Any] = msgspec.to_builtins(model(analysis))
+    return found
+
+
+def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
+    """JSON text; numbers are the shortest that read back to the same double."""
+    return msgspec.json.format(msgspec.json.encode(report), indent=2) + b"\n"
+
+
+def schema() -> bytes:
+    """The JSON Schema of the report."""
+    described = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
+    return encode(described)
+
+
+def model(analysis: Analysis) -> Report:
+    """The report of an analysis."""
+    surface, file = analysis.surface, analysis.surface.file
+    pieces = _pieces(analysis, surface.components)
+    whole = _pieces(analysis, surface.whole)[0]
+    whole.topology.components = surface.components.count
+    for key in ("boundary_loops", "genus", "crosscaps"):
+        setattr(whole.topology, key, _sum_or_null([getattr(piece.topology, key) for piece in pieces]))
+    conventions = analysis.conventions
+    return Report(
+        schema_version=1,
+        curvcli=__version__,
+        input=Input(
+            path=file.path if file else None,
+            sha256=file.sha256 if file else None,
+            format=file.format if file else None,
+            vertices=surface.n_vertices,
+            polygons=file.polygons if file else surface.n_faces,
+        ),
+        conventions={key: getattr(conventions, key) for key in ("mean", "area", "orient", "weld", "unit")},
+        topology=whole.topology,
+        totals=whole.totals,
+        cmc=whole.cmc,
+        minimal=whole.minimal,
+        components=pieces,
+        columns=_columns(analysis),
+        checks=[CheckRow(**vars(check)) for check in analysis.checks],
+        warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
+        timings=analysis.timings,
+    )
+
+
+def _pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
+    surface = analysis.surface
+    counts = census(surface, groups)
+    kinds = genus(surface) if groups.kind == "component" else None
+    defects = _defects(analysis, groups)
+    totals = {key: _plain(values) for key, values in analysis.totals_of(groups).items()}
+    bent: dict[str, list[Any]] | None = None
+    if {"H_vec", "A_vec"} <= analysis.columns.keys():
+        found = constant_mean_curvature(surface, groups, analysis.columns)
+        factor = 0.5 if analysis.conventions.mean == "average" else 1.0
+        exponents = {"H": -1, "residual_max": 1, "H_vec_max": 1}
+        bent = {key: _plain(surface.in_file_unit(values, exponents[key]) * factor) for key, values in found.items()}
+    return [
+        Piece(
+            _topology(counts, kinds, defects, group),
+            {key: values[group] for key, values in totals.items()},
+            Cmc(bent["H"][group], bent["residual_max"][group]) if bent else msgspec.UNSET,
+            Minimal(bent["H_vec_max"][group]) if bent else msgspec.UNSET,
+        )
+        for group in range(groups.count)
+    ]
+
+
+def _topology(counts: Census, kinds: Genus | None, defects: dict[str, list[int]], group: int) -> Topology:
+    def classified(key: str) -> int | None:
+        value = math.nan if kinds is None else float(getattr(kinds, key)[group])
+        return None if math.isnan(value) else round(value)
+
+    counted: dict[str, Any] = {key: column[group].item() for key, column in vars(counts).items()}
+    counted |= {key: values[group] for key, values in defects.items()}
+    counted |= {key: classified(key) for key in ("boundary_loops", "genus", "crosscaps")}
+    return Topology(components=1, **{key: counted[key] for key in Topology.__struct_fields__ if key in counted})
+
+
+def _defects(analysis: Analysis, groups: Groups) -> dict[str, list[int]]:
+    """Counts per group that need more than the edges."""
+    surface = analysis.surface
+    faces, vertices = np.zeros(surface.n_faces, bool), np.zeros(surface.n_vertices, bool)
+    faces[duplicate_faces(surface)] = True
+    vertices[duplicate_vertices(surface)] = True
+    loose = surface.n_vertices - int(np.count_nonzero(surface.referenced)) - merged(surface)
+    return {
+        "degenerate_faces": groups.faces.count_true(analysis.columns["degenerate_face"]).tolist(),
+        "duplicate_faces": groups.faces.count_true(faces).tolist(),
+        "unreferenced_vertices": [loose if groups.kind == "whole" else 0] * groups.count,
+        "duplicate_vertices": groups.vertices.count_true(vertices).tolist(),
+    }
+
+
+def merged(surface: Surface) -> int:
+    """Rows whose values stand in the row they were welded to."""
+    welded = surface.file.welded_to if surface.file is not None else None
+    return 0 if welded is None else int(np.count_nonzero(welded >= 0))
+
+
+def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
+    surface = analysis.surface
+    area = analysis.columns["star_area"]
+    found: dict[str, ColumnStatistics] = {}
+    for name in analysis.chosen:
+        quantity = passes.quantity(name)
+        if quantity.on != "vertex" or quantity.kind == "label":
+            continue
+        shown = analysis.column(name)
+        each = shown.T if quantity.vector else [shown]
+        for column, values in zip(quantity.columns, each, strict=True):
+            found[column] = statistics(
+                quantity, values, area, surface.referenced, quantity.unit(analysis.conventions.unit)
+            )
+    return found
+
+
+def _sum_or_null(values: list[int | None]) -> int | None:
+    return None if None in values else sum(value for value in values if value is not None)
+
+
+def _plain(values: Any) -> list[Any]:
+    """Lists with None for what is not a number, for JSON."""
+    return [
+        [x if math.isfinite(x) else None for x in row] if isinstance(row, list) else row if math.isfinite(row) else None
+        for row in values.tolist()
+    ]

@@ -1,0 +1,111 @@
+"""What each quantity is, for the terminal and as data."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from typing import Any
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from ..declare import CELL_AREA, SURFACE, Element, Quantity, passes
+from ..errors import UsageError
+from ..pipeline import CORE, in_order, load_passes
+
+_PLAIN = str.maketrans("", "", "*")
+
+
+def public() -> list[Quantity]:
+    """All public quantities in the order of the tables, vertices first."""
+    load_passes()
+    elements: tuple[Element, ...] = ("vertex", "edge", "face")
+    return [
+        passes.quantity(name)
+        for element in elements
+        for name in in_order(quantity.name for quantity in passes.quantities(element))
+    ]
+
+
+def find(name: str) -> Quantity:
+    """A quantity by its name or by the name of one of its columns.
+
+    Errors: UsageError with the nearest names.
+    """
+    known = {column: quantity for quantity in public() for column in (quantity.name, *quantity.columns)}
+    if name not in known:
+        near = get_close_matches(name, known, 3, 0.4) or ["`curvcli passes` lists them"]
+        raise UsageError(f"no quantity is called {name!r}; nearest: {', '.join(near)}")
+    return known[name]
+
+
+def facts(quantity: Quantity) -> dict[str, Any]:
+    """Everything declared about a quantity, under the names used everywhere."""
+    needs = [need for need in passes.provider(quantity.name).needs if need != SURFACE]
+    return {
+        "name": quantity.name,
+        "symbol": quantity.symbol.translate(_PLAIN),
+        "on": quantity.on,
+        "kind": quantity.kind,
+        "columns": list(quantity.columns),
+        "description": quantity.description,
+        "formula": quantity.formula.translate(_PLAIN),
+        "unit": quantity.unit(None),
+        "length_exponent": quantity.length_exponent,
+        "mean_degree": quantity.mean_degree,
+        "parity": quantity.parity,
+        "boundary": quantity.boundary,
+        "preserves": quantity.preserves.translate(_PLAIN),
+        "total": f"totals.{quantity.total}" if quantity.total else None,
+        "source": quantity.source,
+        "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in needs],
+        "preset": "core" if quantity.name in CORE else "paper" if quantity.source.startswith("Sullivan") else "all",
+    }
+
+
+def as_data(name: str | None) -> Any:
+    """The facts of one quantity, or of all."""
+    return facts(find(name)) if name else [facts(quantity) for quantity in public()]
+
+
+def listing() -> None:
+    """Print a table of all quantities."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for header in ("name", "symbol", "on", "kind", "unit"):
+        table.add_column(header, no_wrap=True)
+    table.add_column("formula", overflow="fold")
+    for quantity in public():
+        shown = facts(quantity)
+        marked = f"{quantity.name}{'' if shown['preset'] == 'core' else ' +'}"
+        cells = (marked, shown["symbol"], quantity.on, quantity.kind, shown["unit"], shown["formula"])
+        table.add_row(*(cell.replace("[", r"\[") for cell in cells))
+    console = Console(highlight=False, soft_wrap=False)
+    console.print(table)
+    console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]")
+
+
+def describe(name: str) -> None:
+    """Print everything about one quantity."""
+    shown = facts(find(name))
+    table = Table(box=None, show_header=False, pad_edge=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(overflow="fold")
+    labels = {
+        "symbol": "symbol",
+        "description": "what it is",
+        "formula": "formula",
+        "kind": "kind",
+        "unit": "unit",
+        "columns": "columns",
+        "boundary": "on the boundary",
+        "preserves": "what it preserves",
+        "total": "its sum",
+        "source": "source",
+        "needs": "needs",
+    }
+    table.add_row(shown["name"], f"on every {shown['on']}")
+    for key, label in labels.items():
+        value = ", ".join(shown[key]) if isinstance(shown[key], list) else shown[key]
+        if value:
+            table.add_row(label, value.replace("[", r"\["))
+    Console(highlight=False).print(table)

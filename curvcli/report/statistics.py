@@ -1,0 +1,61 @@
+"""Statistics of one column, nulls left out and counted."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from ..declare import Quantity
+
+
+class ColumnStatistics(msgspec.Struct):
+    """What a column is and how its values are spread; percentiles interpolate linearly, std is of the population."""
+
+    symbol: str
+    unit: str
+    kind: str
+    length_exponent: int
+    min: float | None
+    max: float | None
+    mean: float | None
+    area_mean: float | None
+    std: float | None
+    p02: float | None
+    median: float | None
+    p98: float | None
+    nulls: int
+
+
+def statistics(
+    quantity: Quantity, values: NDArray[Any], area: NDArray[np.float64], referenced: NDArray[np.bool_], unit: str
+) -> ColumnStatistics:
+    """Statistics of a vertex column. area: (V,) barycentric areas, the weights of `area_mean`."""
+    numbers = values.astype(np.float64)
+    known = referenced & ~np.isnan(numbers)
+    nulls = len(numbers) - int(np.count_nonzero(known))
+    if nulls:
+        numbers, area = numbers[known], area[known]
+    described = (quantity.symbol, unit, quantity.kind, quantity.length_exponent)
+    if not len(numbers):
+        return ColumnStatistics(*described, None, None, None, None, None, None, None, None, nulls)
+    # In units of a power of two near the largest value, so that squares and sums stay within the range of doubles.
+    ordered = np.sort(numbers)
+    size = np.ldexp(1.0, int(np.frexp(max(abs(ordered[0]), abs(ordered[-1])))[1]) - 1) or 1.0
+    scaled = numbers / size
+    low, median, high = np.quantile(ordered / size, [0.02, 0.5, 0.98]) * size
+    weight = float(area.sum())
+    return ColumnStatistics(
+        *described,
+        float(ordered[0]),
+        float(ordered[-1]),
+        float(scaled.mean() * size),
+        float((scaled * area).sum() / weight * size) if weight > 0 else None,
+        float(scaled.std() * size),
+        float(low),
+        float(median),
+        float(high),
+        nulls,
+    )
