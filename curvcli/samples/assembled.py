@@ -30,8 +30,10 @@ def genus_2(*, size: int = 1250, edge: float = 1.0) -> Sample:
     hole = flat & np.isin(x, [cut, 2 * cut, 3 * cut, 4 * cut]) & np.isin(y, [cut, 2 * cut])
     defect = (outer.astype(np.float64) - hole) * (math.pi / 2)
     # Convex edges: 36 of the block and 16 of the rims of the holes; hollow ones: 8 upright in the holes.
-    totals = {"area": 50 * edge**2, "volume": 13 * edge**3, "H_theta": (36 + 16 - 8) * edge * math.pi / 2}
-    return Sample(lattice * (edge / cut), faces, {"K": defect}, orientable(genus=2, convex=False, **totals))
+    facts = orientable(
+        genus=2, convex=False, area=50 * edge**2, volume=13 * edge**3, H_theta=(36 + 16 - 8) * edge * math.pi / 2
+    )
+    return Sample(lattice * (edge / cut), faces, {"K": defect}, facts)
 
 
 def boundary(solid: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> tuple[FloatArray, IntArray]:

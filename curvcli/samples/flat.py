@@ -48,7 +48,7 @@ def disk(*, size: int = 1000, radius: float = 1.0) -> Sample:
 
 @sample(
     summary="a flat ring between two circles",
-    exact="Every curvature is 0 inside, that of the mesh too; the outer boundary turns by 2 pi, the inner one by -2 pi.",
+    exact="Every curvature is 0 inside, that of the mesh too; the outer boundary turns by 2 pi, the inner by -2 pi.",
 )
 def annulus(*, size: int = 1000, radius: float = 1.0, hole: float = 0.4) -> Sample:
     """Both boundaries are regular polygons with as many sides."""

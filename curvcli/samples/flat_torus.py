@@ -43,4 +43,4 @@ def periodic_delaunay(points: FloatArray, period: tuple[float, float]) -> IntArr
     demand(
         closed and len(np.unique(faces)) == size, "these random points do not make a torus; take more or another seed"
     )
-    return faces
+    return np.ascontiguousarray(faces, np.int32)

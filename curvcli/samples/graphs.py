@@ -33,7 +33,7 @@ def cap(*, size: int = 1000, radius: float = 1.0, angle: float = 50.0) -> Sample
 
 @sample(
     summary="a dome: a paraboloid over a disk",
-    exact="Curvatures of z = (radius^2 - x^2 - y^2)/(2 focus) at every vertex; area and total curvature in closed form.",
+    exact="Curvatures of z = (radius^2 - x^2 - y^2)/(2 focus) everywhere; area and total curvature in closed form.",
 )
 def paraboloid(*, size: int = 1000, radius: float = 1.0, focus: float = 1.0) -> Sample:
     """focus: the radius of curvature at the top (twice the focal length)."""
@@ -48,7 +48,7 @@ def paraboloid(*, size: int = 1000, radius: float = 1.0, focus: float = 1.0) -> 
 
 @sample(
     summary="a saddle: a hyperbolic paraboloid over a disk",
-    exact="Curvatures of z = (x^2 - y^2)/(2 focus) at every vertex; area and total curvature in closed form.",
+    exact="Curvatures of z = (x^2 - y^2)/(2 focus) everywhere; area and total curvature in closed form.",
 )
 def saddle(*, size: int = 1000, radius: float = 1.0, focus: float = 1.0) -> Sample:
     """focus: the radius of both principal curvatures in the middle."""

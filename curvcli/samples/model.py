@@ -115,7 +115,9 @@ class SampleSpec:
             )
             demand(math.isfinite(value), f"{name} must be finite, not {value!r}")
         made = self.function(**values)
-        return dataclasses.replace(made, name=self.name, description=self.exact)
+        # Writers and the readers of raw memory want rows one after the other, however the formulas stacked them.
+        points, faces = np.ascontiguousarray(made.points), np.ascontiguousarray(made.faces)
+        return dataclasses.replace(made, points=points, faces=faces, name=self.name, description=self.exact)
 
 
 def demand(condition: bool, otherwise: str) -> None:

@@ -37,7 +37,7 @@ def mobius(*, size: int = 1000, radius: float = 1.0, width: float = 0.6) -> Samp
     exact="K_density and h of the immersion are exact at every vertex; chi = 0, total curvature 0, not orientable.",
 )
 def klein_bottle(*, size: int = 1500, radius: float = 2.0, width: float = 1.0) -> Sample:
-    """The eight is (sin v, sin 2v) times width; it cuts itself along one circle, on which only one branch has vertices."""
+    """The eight is (sin v, sin 2v) times width; on the circle where it cuts itself only one branch has vertices."""
     demand_positive(size=size, radius=radius, width=width)
     demand(width < radius, f"width must be less than radius {radius!r}, not {width!r}")
     rows, columns = split(size, radius / width / 1.5)
@@ -56,10 +56,10 @@ def klein_bottle(*, size: int = 1500, radius: float = 2.0, width: float = 1.0) -
 
 @sample(
     summary="Boy's surface: the projective plane immersed with least Willmore energy",
-    exact="K_density and h of Bryant and Kusner's immersion are exact; chi = 1, Willmore energy 48 pi, total curvature 2 pi.",
+    exact="K_density and h of Bryant and Kusner's immersion are exact; Willmore energy 48 pi, total curvature 2 pi.",
 )
 def projective_plane(*, size: int = 1500) -> Sample:
-    """The unit disk with opposite points of its rim made one, mapped by an inverted minimal surface with three flat ends."""
+    """The unit disk, opposite points of its rim made one, mapped by an inverted minimal surface with 3 flat ends."""
     demand_positive(size=size)
     rings = rings_for(size)
     rho, phi, faces = disk(rings)

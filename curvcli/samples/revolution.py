@@ -70,7 +70,7 @@ def closed_cylinder(*, size: int = 1000, radius: float = 1.0, height: float = 2.
 
 @sample(
     summary="the side of a cone, open below, with its apex",
-    exact="K = 0 but at the apex, of the mesh too: there 2 pi - 2 n asin(radius sin(pi/n)/slant), n vertices to a ring.",
+    exact="K = 0 but at the apex, of the mesh too: there 2 pi - 2 n asin(radius sin(pi/n)/slant), n to a ring.",
 )
 def cone(*, size: int = 1000, radius: float = 1.0, height: float = 1.0) -> Sample:
     """Rings at equal distances; at the apex the smooth curvatures have no value."""
@@ -99,7 +99,7 @@ def cone(*, size: int = 1000, radius: float = 1.0, height: float = 1.0) -> Sampl
 
 @sample(
     summary="a piece of the pseudosphere (tractroid): constant negative curvature",
-    exact="K = -1/radius^2 at every vertex, kappa_1 kappa_2 with kappa_1 = sinh(t)/radius; exact area and total curvature.",
+    exact="K = -1/radius^2 at every vertex, kappa_1 = sinh(t)/radius; area and total curvature in closed form.",
 )
 def pseudosphere(*, size: int = 1000, radius: float = 1.0, start: float = 0.4, end: float = 2.5) -> Sample:
     """Profile radius (1/cosh t, t - tanh t) from t = start, above the edge at 0, to t = end."""
@@ -122,7 +122,7 @@ def pseudosphere(*, size: int = 1000, radius: float = 1.0, start: float = 0.4, e
 
 @sample(
     summary="Schwarz's lantern: every vertex on a cylinder, yet too much area",
-    exact="Vertices lie on the cylinder; the area of the mesh is 2 m n radius sin(pi/n) sqrt((height/m)^2 + sagitta^2).",
+    exact="Vertices lie on the cylinder; its area is 2 m n radius sin(pi/n) sqrt((height/m)^2 + sagitta^2).",
 )
 def schwarz_lantern(*, size: int = 1000, radius: float = 1.0, height: float = 2.0, folding: float = 0.5) -> Sample:
     """n vertices to each of m + 1 rings, every other turned by half a step; folding = m/n^2.

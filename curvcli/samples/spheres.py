@@ -51,7 +51,7 @@ def uv_sphere(*, size: int = 1000, radius: float = 1.0) -> Sample:
 
 @sample(
     summary="an ellipsoid with three axes: a regular sphere, stretched",
-    exact="Every vertex lies on the ellipsoid: its curvatures from the implicit equation; area and H_theta by Carlson's R_G.",
+    exact="Every vertex lies on the ellipsoid: curvatures from its implicit equation; area, H_theta by Carlson's R_G.",
 )
 def ellipsoid(*, size: int = 1000, a: float = 1.0, b: float = 0.8, c: float = 0.6) -> Sample:
     """The icosphere of that size with half axes a, b, c."""
@@ -61,7 +61,7 @@ def ellipsoid(*, size: int = 1000, a: float = 1.0, b: float = 0.8, c: float = 0.
 
 @sample(
     summary="an ellipsoid with three axes: an irregular sphere, stretched",
-    exact="Every vertex lies on the ellipsoid: its curvatures from the implicit equation; area and H_theta by Carlson's R_G.",
+    exact="Every vertex lies on the ellipsoid: curvatures from its implicit equation; area, H_theta by Carlson's R_G.",
 )
 def irregular_ellipsoid(*, size: int = 1000, a: float = 1.0, b: float = 0.8, c: float = 0.6, seed: int = 0) -> Sample:
     """The irregular sphere of that size with half axes a, b, c."""

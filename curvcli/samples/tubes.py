@@ -54,7 +54,7 @@ def irregular_torus(*, size: int = 1200, radius: float = 1.0, tube: float = 0.4,
     random = np.random.default_rng(seed)
     u = random.uniform(0, 2 * np.pi, size)
     v = _uniform_by_area(random.uniform(0, 2 * np.pi, size), tube / radius)
-    # Conformal: the torus is the plane du^2 + dw^2 times (radius + tube cos v)^2, with dw = tube dv/(radius + tube cos v).
+    # The torus is conformal to the plane: (radius + tube cos v)^2 (du^2 + dw^2), dw = tube dv/(radius + tube cos v).
     slope = math.sqrt(radius**2 - tube**2)
     w = 2 * tube / slope * np.arctan2(slope / (radius + tube) * np.sin(v / 2), np.cos(v / 2))
     faces = periodic_delaunay(np.stack([u, w], axis=1), (2 * math.pi, 2 * math.pi * tube / slope))
@@ -76,7 +76,7 @@ def clifford_torus(*, size: int = 1200, radius: float = 1.0) -> Sample:
     exact="Principal curvatures are exact at every vertex; the Willmore energy stays 8 pi^2, since inversions keep it.",
 )
 def cyclide(*, size: int = 1200, distance: float = 2.5) -> Sample:
-    """Inversion of the Clifford torus of radius 1 in the unit sphere about a point `distance` from its axis, in its plane."""
+    """The Clifford torus of radius 1, inverted about a point in its plane at that distance from its axis."""
     made: Sample = clifford_torus.function(size=size, radius=1.0)
     demand(distance > 1 + math.sqrt(0.5), f"distance must be above {1 + math.sqrt(0.5):.4g}, not {distance!r}")
     on_axis = np.hypot(made.points[:, 0], made.points[:, 1])
@@ -85,15 +85,15 @@ def cyclide(*, size: int = 1200, distance: float = 2.5) -> Sample:
     exact = inverted(made.exact["kappa_1"], made.exact["kappa_2"], (made.points - circle) * math.sqrt(2), offset)
     points = offset / np.einsum("ij,ij->i", offset, offset)[:, None]
     limit = {"K": 0.0, "willmore": 8 * math.pi**2}
-    return Sample(points, made.faces[:, ::-1].copy(), exact, made.facts, limit)
+    return Sample(points, made.faces[:, ::-1], exact, made.facts, limit)
 
 
 @sample(
     summary="a tube about a trefoil knot: a knotted torus",
-    exact="Principal curvatures 1/tube and -k cos t/(1 - tube k cos t), k that of the knot; exact area, volume and energy.",
+    exact="Principal curvatures 1/tube and -k cos t/(1 - tube k cos t), k that of the knot; exact area and volume.",
 )
 def trefoil_tube(*, size: int = 2000, radius: float = 1.0, tube: float = 0.4) -> Sample:
-    """Circles about the knot radius (sin t + 2 sin 2t, cos t - 2 cos 2t, -sin 3t), counted from its principal normal."""
+    """Circles about radius (sin t + 2 sin 2t, cos t - 2 cos 2t, -sin 3t), counted from its principal normal."""
     demand_positive(size=size, radius=radius, tube=tube)
     demand(tube < 0.6 * radius, f"tube must be less than {0.6 * radius!r}, not {tube!r}, or the tube cuts itself")
     _, speed, bend, *_ = _trefoil(2 * np.pi * np.arange(4096) / 4096)
@@ -113,8 +113,7 @@ def trefoil_tube(*, size: int = 2000, radius: float = 1.0, tube: float = 0.4) ->
         # The trapezoidal sum of a periodic analytic function is exact to rounding.
         "willmore": float((4 * np.pi**2 * radius / tube * speed / np.sqrt(1 - (tube / radius * bend) ** 2)).mean()),
     }
-    faces = np.ascontiguousarray(closed_grid(rows, columns)[:, ::-1])
-    return Sample(points, faces, exact, orientable(genus=1, convex=False), limit)
+    return Sample(points, closed_grid(rows, columns)[:, ::-1], exact, orientable(genus=1, convex=False), limit)
 
 
 def _trefoil(t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
