@@ -28,15 +28,13 @@ def periodic_delaunay(points: FloatArray, period: tuple[float, float]) -> IntArr
                 owners.append(np.flatnonzero(near))
     owner = np.concatenate(owners)
     plane = np.concatenate(copies)
+    # In the plane scipy lists the corners counterclockwise.
     corners = Delaunay(plane).simplices
     # Of the copies of a triangle exactly one has its lowest-numbered corner among the points themselves.
     faces = owner[corners]
     lowest = np.take_along_axis(corners, faces.argmin(axis=1)[:, None], axis=1)[:, 0]
     kept = lowest < size
-    a, b, c = (plane[corner] for corner in corners[kept].T)
-    clockwise = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) < (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    faces = faces[kept].astype(np.int32)
-    faces[clockwise] = faces[clockwise][:, ::-1]
+    faces = faces[kept]
     directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
     key, back = directed[:, 0] * size + directed[:, 1], directed[:, 1] * size + directed[:, 0]
     closed = len(np.unique(key)) == len(key) == 6 * size and np.array_equal(np.sort(key), np.sort(back))
