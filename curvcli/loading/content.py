@@ -46,7 +46,7 @@ def read_limited(file: BinaryIO, max_bytes: int | None) -> bytes:
     Errors: InputError if it cannot be read, is empty, or holds more than max_bytes.
     """
     try:
-        data = file.read() if max_bytes is None else file.read(max_bytes + 1)
+        data = file.read() if max_bytes is None else _read_up_to(file, max_bytes + 1)
     except OSError as error:
         raise InputError(_reason(error)) from None
     if max_bytes is not None and len(data) > max_bytes:
@@ -54,6 +54,14 @@ def read_limited(file: BinaryIO, max_bytes: int | None) -> bytes:
     if not data:
         raise InputError("no data found, a mesh expected")
     return data
+
+
+def _read_up_to(file: BinaryIO, limit: int) -> bytes:
+    parts = []
+    while limit and (part := file.read(min(_CHUNK, limit))):
+        parts.append(part)
+        limit -= len(part)
+    return b"".join(parts)
 
 
 def inflate(data: bytes, max_bytes: int | None) -> bytes:

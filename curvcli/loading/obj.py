@@ -91,7 +91,7 @@ def _statements(
         keyword, _, rest = lines.text(line).partition(b" ")
         if keyword in _LABELS:
             at.setdefault(_LABELS[keyword], []).append(line)
-            names.setdefault(_LABELS[keyword], []).append(_decode(b" ".join(rest.partition(b" #")[0].split())))
+            names.setdefault(_LABELS[keyword], []).append(_decode(b" ".join((b" " + rest).partition(b" #")[0].split())))
         elif keyword not in _SILENT:
             code = "ignored_statements" if keyword in _IGNORED else "unknown_statements"
             counted[code].setdefault(keyword, []).append(line)

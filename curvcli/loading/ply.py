@@ -96,7 +96,13 @@ def _native(values: NDArray[Any]) -> NDArray[np.generic]:
 def _checked(
     indices: NDArray[Any], sizes: NDArray[np.int64], name: str, vertices: int, lowest: int = 0
 ) -> NDArray[np.int32]:
-    """The indices, all of them within the list of vertices."""
+    """The indices, all of them whole and within the list of vertices."""
+    if indices.dtype.kind == "f":
+        fraction = np.flatnonzero(indices != np.floor(indices))
+        if len(fraction):
+            row = int(np.searchsorted(np.cumsum(sizes), fraction[0], side="right"))
+            found = f"{indices[fraction[0]]:g}"
+            raise InputError(f"vertex index {found} found, a whole number expected", place=f"{name} {row}")
     if len(indices) and (int(indices.min()) < lowest or int(indices.max()) >= vertices):
         wrong = int(np.flatnonzero((indices < lowest) | (indices >= vertices))[0])
         row = int(np.searchsorted(np.cumsum(sizes), wrong, side="right"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +31,7 @@ _TYPES = {
     "float64": "f8",
 }
 _ORDER = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
+_END = re.compile(rb"[\r\n]end_header[ \t]*(\r\n|\n|\r)")
 _MAGIC = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
 PLY_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]*[\r\n]")
 
@@ -77,7 +79,7 @@ def parse_header(data: bytes) -> Header:
     if not magic:
         raise InputError("no PLY header found; a first line `ply` expected", place="line 1")
     newline = magic[1]
-    end = re.compile(rb"[\r\n]end_header[ \t]*" + re.escape(newline)).search(data, magic.end() - 1)
+    end = _END.search(data, magic.end() - 1)
     if not end:
         raise InputError("no `end_header` found, expected at the end of the PLY header")
     lines = data[magic.end() : end.start() + 1].decode("latin-1").replace(newline.decode(), "\n").splitlines()
@@ -106,14 +108,16 @@ def parse_header(data: bytes) -> Header:
                 raise InputError(f"`{line.strip()[:60]}` found, a PLY header statement expected", place=place)
     if order is None:
         raise InputError("no `format` found in the PLY header")
-    names = [name for name, _, _ in elements]
-    for name in names:
-        if names.count(name) > 1:
-            raise InputError(f"element `{name}` announced twice", place="header")
+    names = Counter(name for name, _, _ in elements)
+    for name, times in names.items():
+        if times > 1:
+            raise InputError(f"element `{name}` announced {times} times, once expected", place="header")
+    # Old Mac line ends: a line feed after the last one belongs to the data.
+    body = end.end() - (newline == b"\r" and end[1] == b"\r\n")
     return Header(
         tuple(Element(name, count, tuple(properties)) for name, count, properties in elements),
         order == "ascii",
-        end.end(),
+        body,
         len(lines) + 2,
     )
 

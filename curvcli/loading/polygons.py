@@ -86,8 +86,7 @@ def _is_convex(p: NDArray[np.float64]) -> NDArray[np.bool_]:
         step = np.roll(d, -1, 2) - d
         turn = (_cross(step, np.roll(step, -1, 2)) * normal).sum(0)
         fan = (_cross(d[:, :, 1:-1], d[:, :, 2:]) * normal).sum(0)
-        concave = (turn < 0).any(1) | (fan < 0).any(1)
-    return np.logical_not(concave)
+        return np.asarray((turn >= 0).all(1) & (fan >= 0).all(1) | ~np.isfinite(d).all((0, 2)))
 
 
 def _in_plane(p: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib
 import io
 import os
 from concurrent.futures import ThreadPoolExecutor
@@ -11,8 +12,10 @@ from typing import Any, BinaryIO
 
 from ..errors import InputError, UsageError
 from .content import inflate, open_regular, read_limited, shown
+from .limits import check_faces
 from .model import MeshFile
 from .recognise import FORMATS, format_of_name, recognise
+from .text import SMALL
 
 _PREFIX = "curvcli-"
 
@@ -32,6 +35,7 @@ def read_mesh_file(
     of the bounding box. max_faces, max_bytes: refuse larger files.
     Errors: InputError, one line that names the file, the place, what was found and what was expected.
     """
+    _check_weld(weld)
     if input_format is not None and input_format.lower() not in FORMATS:
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(FORMATS)} are")
     path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
@@ -41,6 +45,15 @@ def read_mesh_file(
         place, hint = error.place and shown(error.place), error.hint and shown(error.hint)
         raise InputError(shown(error.problem), path=shown(path), place=place, hint=hint) from None
     return replace(mesh, path=shown(path))
+
+
+def _check_weld(weld: str | float) -> None:
+    try:
+        known = weld in ("auto", "none", "exact") or 0 <= float(weld) < 1
+    except ValueError:
+        known = False
+    if not known:
+        raise UsageError(f"weld `{weld}` is not known; auto, none, exact and a tolerance from 0 to 1 are")
 
 
 def _read(
@@ -61,7 +74,10 @@ def _read(
         digest = pool.submit(lambda: hashlib.sha256(raw).hexdigest())
         data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
         kind, notices = recognise(data, wanted)
+        if len(data) > SMALL:
+            pool.submit(importlib.import_module, "polars")  # while trimesh is imported
         mesh = _through_trimesh(data, kind, weld=weld, max_faces=max_faces)
+        check_faces(mesh.polygons, max_faces)
         return replace(mesh, sha256=digest.result(), notices=(*notices, *mesh.notices))
 
 

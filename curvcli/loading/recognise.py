@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 
 from ..errors import InputError, Notice
@@ -12,7 +13,6 @@ FORMATS = ("obj", "ply", "stl")
 """The promised formats, which are also the suffixes; each may be followed by .gz."""
 
 _V_LINE = re.compile(rb"(?:^|[\r\n])[ \t]*v[ \t]+[-+.\d]\S*[ \t]+[-+.\d]")
-_F_LINE = re.compile(rb"(?:^|[\r\n])[ \t]*f[ \t]+-?\d+[\d/-]*[ \t]+-?\d")
 
 
 def format_of_name(path: str) -> str:
@@ -20,8 +20,8 @@ def format_of_name(path: str) -> str:
 
     Errors: InputError for a suffix that is not promised.
     """
-    name = path.lower().removesuffix(".gz")
-    suffix = name.rpartition("/")[2].rpartition("\\")[2].rpartition(".")[2] if "." in name else ""
+    name = os.path.basename(path).lower().removesuffix(".gz")
+    suffix = name.rpartition(".")[2] if "." in name else ""
     if suffix in FORMATS:
         return suffix
     raise InputError(
@@ -39,7 +39,7 @@ def recognise(data: bytes, wanted: str | None) -> tuple[str, tuple[Notice, ...]]
     """
     if data[:2] in (b"\xff\xfe", b"\xfe\xff") and (wanted or "obj") == "obj" and announced_size(data) != len(data):
         raise InputError("UTF-16 text found, ASCII or UTF-8 expected", hint="convert it, for example with iconv")
-    if wanted and _bears_sign(data, wanted):
+    if wanted in ("ply", "stl") and _bears_sign(data, wanted):
         return wanted, ()
     found = next((kind for kind in ("ply", "stl", "obj") if kind != wanted and _bears_sign(data, kind)), None)
     if found is None:
@@ -59,4 +59,4 @@ def _bears_sign(data: bytes, kind: str) -> bool:
         if len(data) >= 84 and announced_size(data) == len(data):
             return True
         return bool(ASCII_SIGN.match(data)) and b"facet" in data[:65536].lower()
-    return bool(_V_LINE.search(data, 0, 1 << 20) and _F_LINE.search(data))
+    return bool(_V_LINE.search(data, 0, 1 << 16)) and (b"\nf " in data or b"\rf " in data or b"\nf\t" in data)

@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 from ..errors import InputError, Notice
 from .limits import check_faces
 from .model import MeshFile
-from .text import Untidy, line_starts, pick_lines, plain_lines, read_records, tidy
+from .text import NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy
 from .weld import weld_exact
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
-_KEYWORD = re.compile(rb"\s*\b(endsolid|facet|outer|vertex|endloop|endfacet)\b")
+_KEYWORD = re.compile(rb"[ \n]+(endsolid|facet|outer|vertex|endloop|endfacet)\b", re.IGNORECASE)
+_SHARED_LINE = re.compile(rb"[^\n] (?:facet|vertex)\b", re.IGNORECASE)
 ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?\s*solid\b", re.IGNORECASE)
 
 
@@ -76,43 +77,65 @@ def _read_binary(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float32
 
 def _read_ascii(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
     text = tidy(plain_lines(data))
+    problem = None
     try:
-        return _read_lines(text, max_faces)
-    except Untidy:
-        # Several keywords share a line: give each its own, which costs the line numbers of the file.
-        return _read_lines(re.sub(_KEYWORD, rb"\n\1", text.lower()).lstrip(b"\n"), max_faces, place="statement")
+        xyz, notices = _read_lines(text, max_faces)
+        if xyz.shape[1] or not _SHARED_LINE.search(text):
+            return xyz, notices
+    except InputError as error:
+        if not _SHARED_LINE.search(text):
+            raise
+        problem = error
+    # Several keywords share a line: give each its own, which costs the line numbers of the file.
+    try:
+        return _read_lines(_KEYWORD.sub(rb"\n\1", text).lstrip(b"\n"), max_faces, "statement")
+    except InputError as error:
+        raise problem or error from None
 
 
 def _read_lines(
-    data: bytes, max_faces: int | None, place: str = "line"
+    data: bytes, max_faces: int | None, unit: str = "line"
 ) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
-    text = np.frombuffer(data, np.uint8)
-    starts = line_starts(text)
-    first = text[starts[:-1]] | 32
-    is_facet, is_vertex = first == ord("f"), first == ord("v")
-    facets, vertices = np.flatnonzero(is_facet), np.flatnonzero(is_vertex)
+    starts = line_starts(np.frombuffer(data, np.uint8))
+    first = np.frombuffer(data, np.uint8)[starts[:-1]] | 32  # lower case
+    facets, vertices = np.flatnonzero(first == ord("f")), np.flatnonzero(first == ord("v"))
     check_faces(len(facets), max_faces)
-    if place == "line" and len(re.findall(rb"vertex", data, re.IGNORECASE)) > len(vertices):
-        raise Untidy
     if not len(facets):
         return np.empty((3, 0)), ()
-    per_facet = np.diff(np.searchsorted(vertices, facets), append=len(vertices))
-    wrong = np.flatnonzero(per_facet != 3)
-    if len(wrong) or vertices[0] < facets[0]:
-        at = int(facets[wrong[0]]) if len(wrong) else int(vertices[0])
-        found = f"facet with {per_facet[wrong[0]]} vertices" if len(wrong) else "vertex outside a facet"
-        raise InputError(f"{found} found, 3 per facet expected", place=f"{place} {at + 1}")
+    _check_facets(facets, vertices, unit)
+    statements = first[(first != NEWLINE | 32) & (first != ord("s"))]
+    if statements[-1] != ord("e"):
+        raise InputError("the data end inside a facet; `endfacet` expected", place=f"{unit} {len(first)}")
     try:
-        records = read_records(pick_lines(data, starts, is_vertex), np.float64)
+        records = read_records(pick_lines(data, starts, first == ord("v")), np.float64)
     except Untidy as untidy:
         token, line = untidy.token.decode("utf-8", "backslashreplace"), int(vertices[untidy.row])
-        raise InputError(f"`{token}` found, a number expected", place=f"{place} {line + 1}") from None
+        raise InputError(f"`{token}` found, a number expected", place=f"{unit} {line + 1}") from None
     sizes = np.broadcast_to(records.sizes, len(vertices))
     if (sizes != 3).any():
         row = int(np.flatnonzero(sizes != 3)[0])
-        raise InputError(
-            f"vertex with {sizes[row]} numbers found, 3 expected", place=f"{place} {int(vertices[row]) + 1}"
-        )
-    solids = np.count_nonzero(first == ord("s"))
-    notices = (Notice("several_solids", int(solids), "solids are read as one surface"),) if solids > 1 else ()
-    return np.ascontiguousarray(records.flat().reshape(-1, 3).T), notices
+        place = f"{unit} {int(vertices[row]) + 1}"
+        raise InputError(f"vertex with {sizes[row]} numbers found, 3 expected", place=place)
+    notices = []
+    solids = int(np.count_nonzero(first == ord("s")))
+    if solids > 1:
+        notices.append(Notice("several_solids", solids, "solids are read as one surface"))
+    if not re.search(rb"(?:^|\n)endsolid[^\n]*\n*\Z", data[-65536:], re.IGNORECASE):
+        hint = "if it was cut off, faces are missing"
+        notices.append(Notice("missing_endsolid", 1, "the text ends without `endsolid`", hint))
+    unknown = int(np.count_nonzero(~np.isin(statements, np.frombuffer(b"fove*", np.uint8))))
+    if unknown:
+        notices.append(Notice("unknown_statements", unknown, "unknown statements are ignored"))
+    return np.ascontiguousarray(records.flat().reshape(-1, 3).T), tuple(notices)
+
+
+def _check_facets(facets: NDArray[np.intp], vertices: NDArray[np.intp], unit: str) -> None:
+    """Refuses facets that have not three vertices each."""
+    if len(vertices) and vertices[0] < facets[0]:
+        raise InputError("vertex outside a facet found", place=f"{unit} {int(vertices[0]) + 1}")
+    per_facet = np.diff(np.searchsorted(vertices, facets), append=len(vertices))
+    wrong = np.flatnonzero(per_facet != 3)
+    if len(wrong):
+        found = int(per_facet[wrong[0]])
+        place = f"{unit} {int(facets[wrong[0]]) + 1}"
+        raise InputError(f"facet with {found} vertices found, 3 expected", place=place)

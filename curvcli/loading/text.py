@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 BLANK, NEWLINE = 32, 10
 _BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
 _TOKEN_PER_LINE = bytes.maketrans(b" ", b"\n")
+_BLOCK = 1 << 20
 SMALL = 1 << 16
 """Texts up to this many bytes are read without polars: importing it would take longer than reading them."""
 
@@ -57,7 +58,8 @@ def plain_lines(data: bytes) -> bytes:
     if data.startswith(b"\xef\xbb\xbf"):
         data = data[3:]
     if b"\r" in data:
-        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+        data = data.replace(b"\r\n", b"\n")
+        data = data.replace(b"\r", b"\n") if b"\r" in data else data
     if any(byte in data for byte in (b"\t", b"\0", b"\v", b"\f")):
         data = data.translate(_BLANKS)
     return data if data.endswith(b"\n") else data + b"\n"
@@ -66,12 +68,21 @@ def plain_lines(data: bytes) -> bytes:
 def tidy(data: bytes) -> bytes:
     """The same lines with single blanks between tokens and none at the ends of a line."""
     text = np.frombuffer(data, np.uint8)
-    keep = text != BLANK
-    keep[:-1] |= text[1:] > BLANK
-    text = text[keep]
-    indent = text == BLANK
-    indent[1:] &= text[:-1] == NEWLINE
-    return bytes(text[~indent] if indent.any() else text)
+    parts: list[memoryview] = []
+    last = NEWLINE
+    for begin in range(0, len(text), _BLOCK):
+        block, following = text[begin : begin + _BLOCK], text[begin + 1 : begin + _BLOCK + 1]
+        keep = block != BLANK
+        keep[: len(following)] |= following > BLANK
+        block = block[keep]
+        if not len(block):
+            continue
+        indent = block == BLANK
+        indent[1:] &= block[:-1] == NEWLINE
+        indent[0] &= last == NEWLINE
+        last = int(block[-1])
+        parts.append((block[~indent] if indent.any() else block).data)
+    return b"".join(parts)
 
 
 def drop_empty_lines(data: bytes) -> tuple[bytes, NDArray[np.int64]]:
@@ -145,10 +156,11 @@ def read_records(data: bytes, dtype: type[np.generic]) -> Records:
     rows = np.count_nonzero(text == NEWLINE)
     if len(words) != rows:
         separators = np.flatnonzero(text <= BLANK)
-        firsts = np.concatenate(([0], np.flatnonzero(text[separators] == NEWLINE)[:-1] + 1))
-        wrong = np.setdiff1d(words, firsts)
-        if not len(wrong) or len(numbers) != len(separators):
+        if len(numbers) != len(separators):
             raise Untidy
+        firsts = np.concatenate(([0], np.flatnonzero(text[separators] == NEWLINE)[:-1] + 1))
+        known[firsts] = True
+        wrong = np.flatnonzero(~known)
         begin = separators[wrong[0] - 1] + 1
         raise Untidy(
             int(np.searchsorted(firsts, wrong[0], side="right")) - 1, data[begin : begin + 40].split(maxsplit=1)[0]
@@ -157,8 +169,8 @@ def read_records(data: bytes, dtype: type[np.generic]) -> Records:
 
 
 def read_tokens(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
-    """Every token of a tidy text as a number, and which of them are numbers. What follows a `/` in a token is
-    ignored.
+    """Every token of a tidy text as a number, and which of them are numbers. What follows a `/` in an integer token
+    is ignored.
 
     dtype: np.float64 or np.int32; an integer too large for its type is no number.
     """
@@ -167,7 +179,8 @@ def read_tokens(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generi
     import polars as pl
 
     kind = pl.Float64 if dtype is np.float64 else pl.Int32
-    column = _read_csv(data.translate(_TOKEN_PER_LINE), {"number": kind}, "/", range(1))["number"]
+    separator = " " if dtype is np.float64 else "/"
+    column = _read_csv(data.translate(_TOKEN_PER_LINE), {"number": kind}, separator, range(1))["number"]
     known = np.ones(len(column), np.bool_) if column.null_count() == 0 else column.is_not_null().to_numpy()
     return column.fill_null(0).to_numpy(), known
 
@@ -182,7 +195,7 @@ def _read_tokens_slowly(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[n
     known = np.zeros(len(tokens), np.bool_)
     pattern, convert = (_NUMBER, float) if dtype is np.float64 else (_INTEGER, int)
     for k, token in enumerate(tokens):
-        head = token.partition(b"/")[0]
+        head = token if dtype is np.float64 else token.partition(b"/")[0]
         if pattern.fullmatch(head):
             value = convert(head)
             if dtype is np.float64 or -(2**31) <= value < 2**31:
