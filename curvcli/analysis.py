@@ -52,7 +52,7 @@ class Columns(Mapping[str, Array]):
         for name in analysis.chosen:
             quantity = passes.quantity(name)
             if quantity.on == element:
-                self._quantities[name] = (quantity, None)
+                self._quantities[quantity.stem] = (quantity, None)
                 if quantity.vector:
                     self._quantities.update({column: (quantity, k) for k, column in enumerate(quantity.columns)})
         self._shown: dict[str, Array] = {}

@@ -43,7 +43,8 @@ class Quantity:
     kind: `measure` is integrated, `density` is per area or pointwise. length_exponent: how it scales with length.
     mean_degree: 0, 1 or 2, how it scales with the convention for H. parity: under reversal of the orientation; what is
     odd is null on patches that have none. vector: (3, n). public: whether it is a column of the table.
-    total: the key of its sum in the report. signed: whether 0 is the middle of its range.
+    total: the key of its sum in the report. signed: whether 0 is the middle of its range. labels: what codes stand for.
+    column: its name in the table of its element where that is not its own, which is unique among all elements.
     """
 
     name: str
@@ -63,11 +64,17 @@ class Quantity:
     signed: bool = False
     labels: tuple[str, ...] = ()
     description: str = ""
+    column: str = ""
+
+    @property
+    def stem(self) -> str:
+        """What it is called in the table of its element."""
+        return self.column or self.name
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of its scalar columns: three for a vector."""
-        return tuple(f"{self.name}_{axis}" for axis in "xyz") if self.vector else (self.name,)
+        return tuple(f"{self.stem}_{axis}" for axis in "xyz") if self.vector else (self.stem,)
 
     def unit(self, length: str | None) -> str:
         """Its unit in terms of the unit of length, `1` for a pure number."""

@@ -38,7 +38,7 @@ def resolve(names: Iterable[str]) -> list[str]:
         "paper": [q.name for q in public.values() if q.source.startswith("Sullivan")],
         "all": list(public),
     }
-    stems = {column: quantity.name for quantity in public.values() for column in quantity.columns}
+    stems = {column: q.name for q in reversed(public.values()) for column in (q.stem, *q.columns)}
     wanted: set[str] = set()
     for name in (part.strip() for entry in names for part in entry.split(",")):
         if name in presets:

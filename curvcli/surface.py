@@ -270,12 +270,11 @@ class Surface:
         return bool(self.orientation.orientable.all())
 
     @cached_property
-    def unorientable_vertices(self) -> Mask | None:
-        """(V,) vertices of patches that have no orientation; None when there are none."""
-        if self.orientable:
-            return None
+    def without_orientation(self) -> Mask:
+        """(V,) vertices of patches that have no orientation."""
         mask = np.zeros(self.n_vertices, bool)
-        mask[self.faces[~self.orientation.orientable[self.orientation.patch]].ravel()] = True
+        if not self.orientable:
+            mask[self.faces[~self.orientation.orientable[self.orientation.patch]].ravel()] = True
         return mask
 
     @cached_property

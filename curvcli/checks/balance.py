@@ -111,7 +111,6 @@ def vector_area(surface: Surface, groups: Groups, A_vec: VectorColumn, face_area
         length_exponent=2,
         detail="Σ A_p against ½ Σ a × b",
     )
-    if surface.unorientable_vertices is not None:
-        outcome.exclude(groups.vertices.any(surface.unorientable_vertices), "the surface has no orientation")
+    outcome.exclude(groups.vertices.any(surface.without_orientation), "the surface has no orientation")
     exclude_null(outcome, groups, surface, np.isnan(A_vec[0]), "A_vec")
     return outcome

@@ -5,8 +5,10 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     status,
     angle_defect,
     mean,
+    faces,
+    edges,
     densities,
     principal,
     willmore,
-    edges,
+    conformal,
 )

@@ -46,3 +46,17 @@ def K(surface: Surface, general_defect: Column) -> Column:
 def kappa_g(surface: Surface, general_defect: Column) -> Column:
     """Geodesic curvature of the boundary at the vertex: how far it turns, a measure in radians."""
     return null_where(~surface.boundary, general_defect)
+
+
+@curvature_pass(
+    symbol="K_comb",
+    formula="(π/3)(6 − deg − Σ_{e at p} (2 − n_e)), inside (π/3)(6 − deg)",
+    preserves="gauss_bonnet_combinatorial: ΣK_comb = 2πχ",
+    boundary="same: (π/3)(4 − deg)",
+    signed=True,
+    source="Sullivan, Discrete surfaces",
+)
+def K_comb(surface: Surface) -> Column:
+    """Combinatorial curvature: the angle defect the vertex would have if every triangle were equilateral."""
+    excess = 2 * (surface.degree - surface.corner_count)
+    return null_where(~surface.referenced, (np.pi / 3) * (6.0 - surface.degree - excess))

@@ -1,12 +1,18 @@
-"""Quantities of edges."""
+"""Mean curvature on edges: dihedral angles and the three lengths they make of the edge."""
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any
 
-from ..blocks import dot
-from ..declare import Column, curvature_pass
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import cross, dot, face_blocks
+from ..declare import Column, VectorColumn, curvature_pass
 from ..surface import Surface
+from .mean import conormals
+
+EDGES_PER_BLOCK = 16384
 
 
 @curvature_pass(
@@ -17,8 +23,137 @@ from ..surface import Surface
     length_exponent=1,
     boundary="same",
     source="curvcli conventions",
+    column="length",
 )
 def edge_length(surface: Surface) -> Column:
     """Length of the edge."""
     span = [x[surface.edges.b] - x[surface.edges.a] for x in surface.xyz]
     return np.asarray(np.sqrt(dot(span, span)))
+
+
+@curvature_pass(
+    symbol="θ_e",
+    formula="atan2((n_L × n_R)·e/|e|, n_L·n_R), e = a → b, L the face that contains it",
+    on="edge",
+    kind="angle",
+    parity="odd",
+    signed=True,
+    preserves="Steiner: the area at distance t grows by t Σ θ_e|e|",
+    boundary="null; also where n_e ≠ 2; its size where the surface has no orientation",
+    source="Sullivan, Discrete surfaces",
+)
+def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
+    """Exterior dihedral angle of the edge, positive where convex."""
+    angle = np.full(len(surface.edges), np.nan)
+    inner = np.flatnonzero(surface.edges.valence == 2)
+    face_sign = surface.orientation.face_sign
+    without = None if surface.orientable else ~surface.orientation.orientable[surface.orientation.patch]
+    for block in face_blocks(len(inner), EDGES_PER_BLOCK):
+        edges = inner[block]
+        one, other, forward, against = _sides(surface, edges)
+        nu, mu = ([x[face] for x in unit_normal] for face in (one, other))
+        span = [x[surface.edges.b[edges]] - x[surface.edges.a[edges]] for x in surface.xyz]
+        # With the file's windings made to agree, the one face is on the left where its half-edge runs from a to b.
+        agree = np.where(forward != against, 1.0, -1.0)
+        side = np.where(forward, agree, -agree)
+        if face_sign is not None:
+            side *= face_sign[one]
+        turn = dot(cross(nu, mu), span) / np.sqrt(dot(span, span))
+        found = np.arctan2(side * turn, agree * dot(nu, mu))
+        angle[edges] = found if without is None else np.where(without[one], np.abs(found), found)
+    return angle
+
+
+def _sides(surface: Surface, edges: NDArray[np.intp]) -> tuple[NDArray[Any], ...]:
+    """Of edges with n_e = 2: their two faces, and whether each face's half-edge runs from a to b in the file."""
+    start = surface.edges.start[edges]
+    half_edges = surface.edges.order[start], surface.edges.order[start + 1]
+    a = surface.edges.a[edges]
+    tail = surface.faces.reshape(-1)
+    return half_edges[0] // 3, half_edges[1] // 3, tail[half_edges[0]] == a, tail[half_edges[1]] == a
+
+
+@curvature_pass(
+    symbol="**H**_e",
+    formula="−Σ η_i|e| over the faces at e",
+    on="edge",
+    length_exponent=1,
+    mean_degree=1,
+    vector=True,
+    preserves="force_balance on any set of faces",
+    boundary="null; defined for any n_e ≥ 2, needs no orientation",
+    source="Sullivan, Discrete surfaces",
+    column="H_vec",
+)
+def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
+    """Mean curvature vector of the edge: minus the sum of its outward conormals, |e| long each."""
+    vector = np.full((3, len(surface.edges)), np.nan)
+    inner = np.flatnonzero(surface.edges.valence == 2)
+    for block in face_blocks(len(inner), EDGES_PER_BLOCK):
+        edges = inner[block]
+        one, other, forward, against = _sides(surface, edges)
+        way, back = np.where(forward, 1.0, -1.0), np.where(against, 1.0, -1.0)
+        span = [x[surface.edges.b[edges]] - x[surface.edges.a[edges]] for x in surface.xyz]
+        between = [way * nu[one] + back * nu[other] for nu in unit_normal]
+        vector[:, edges] = cross(between, span)
+    many = surface.nonmanifold_edges
+    if many.any():
+        half_edges = surface.edges.order[np.repeat(many, surface.edges.valence)]
+        each = np.where(np.isnan(unit_normal[0, half_edges // 3]), np.nan, conormals(surface, half_edges))
+        starts = np.cumsum(surface.edges.valence[many]) - surface.edges.valence[many]
+        vector[:, many] = -np.add.reduceat(each, starts, axis=1)
+    return vector
+
+
+@curvature_pass(
+    symbol="2 sin(θ/2)|e|",
+    formula="2 sin(θ_e/2)|e|, its size is |**H**_e|",
+    on="edge",
+    length_exponent=1,
+    mean_degree=1,
+    parity="odd",
+    signed=True,
+    total="H_sin",
+    preserves="force_balance: the size of H_e",
+    boundary="null",
+    source="Sullivan, Discrete surfaces",
+)
+def H_sin(theta: Column, edge_length: Column) -> Column:
+    """Mean curvature of the edge by the sine, as force balance has it."""
+    return 2 * np.sin(theta / 2) * edge_length
+
+
+@curvature_pass(
+    symbol="θ|e|",
+    formula="θ_e|e|",
+    on="edge",
+    length_exponent=1,
+    mean_degree=1,
+    parity="odd",
+    signed=True,
+    total="H_theta",
+    preserves="Steiner's formula and mixed volumes",
+    boundary="null",
+    source="Sullivan, Discrete surfaces",
+)
+def H_theta(theta: Column, edge_length: Column) -> Column:
+    """Mean curvature of the edge by the angle, as Steiner's formula has it."""
+    return theta * edge_length
+
+
+@curvature_pass(
+    symbol="2 tan(θ/2)|e|",
+    formula="2 tan(θ_e/2)|e|",
+    on="edge",
+    length_exponent=1,
+    mean_degree=1,
+    parity="odd",
+    signed=True,
+    total="H_tan",
+    preserves="the area of parallel surfaces whose edges meet in mitres",
+    boundary="null",
+    source="Sullivan, Discrete surfaces",
+)
+def H_tan(theta: Column, edge_length: Column) -> Column:
+    """Mean curvature of the edge by the tangent, as mitred parallel surfaces have it."""
+    return 2 * np.tan(theta / 2) * edge_length

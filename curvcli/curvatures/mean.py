@@ -10,8 +10,9 @@ from ..surface import Surface
 from ..topology import Index
 from .star import null_where, ratio
 
-# |A_vec| below this part of the star's area has lost its direction to rounding.
-_FLAT = 1e-12
+# What divides by |A_vec| is undefined where it is below this part of the star's area, and what divides by H·A where
+# that is below this part of |H||A|: there rounding has eaten the quotient.
+LOST = 1e-12
 
 
 @curvature_pass(
@@ -40,10 +41,7 @@ def A(surface: Surface, star_area: Column) -> Column:
 )
 def A_vec(surface: Surface, star_vector: VectorColumn) -> VectorColumn:
     """Vector area of the vertex: the gradient of the volume; null on patches without an orientation."""
-    hidden = ~surface.referenced
-    if surface.unorientable_vertices is not None:
-        hidden = hidden | surface.unorientable_vertices
-    return null_where(hidden, star_vector)
+    return null_where(surface.without_orientation | ~surface.referenced, star_vector)
 
 
 @curvature_pass(
@@ -106,7 +104,13 @@ def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
 def h(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Mean curvature of the vertex without its sign; null where |A_vec| < 1e-12 A."""
     length = np.sqrt(dot(star_vector, star_vector))
-    return ratio(np.sqrt(dot(H_vec, H_vec)), length, surface.interior & (length >= _FLAT * star_area))
+    return ratio(np.sqrt(dot(H_vec, H_vec)), length, pointed(surface, star_vector, star_area))
+
+
+def pointed(surface: Surface, star_vector: VectorColumn, star_area: Column) -> Flags:
+    """(V,) interior vertices whose star's vector area has not lost its direction to rounding."""
+    mask: Flags = surface.interior & (np.sqrt(dot(star_vector, star_vector)) >= LOST * star_area)
+    return mask
 
 
 @curvature_pass(
@@ -124,5 +128,63 @@ def h(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_are
 def h_signed(surface: Surface, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
     """The mean curvature H = κ₁ + κ₂ with its sign: +2/r on a sphere of radius r seen from outside."""
     signed = np.where(dot(H_vec, star_vector) < 0, h, 0.0 - h)
-    hidden = surface.unorientable_vertices
-    return signed if hidden is None else null_where(hidden, signed)
+    return null_where(surface.without_orientation, signed)
+
+
+@curvature_pass(
+    symbol="|**H**_p|/A_p",
+    formula="|**H**_p| / A_p",
+    kind="density",
+    length_exponent=-1,
+    mean_degree=1,
+    preserves="see H_vec and A",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces; Hsu, Kusner and Sullivan, Minimizing the squared mean curvature",
+)
+def h_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Column:
+    """Mean curvature vector per area."""
+    return ratio(np.sqrt(dot(H_vec, H_vec)), star_area, surface.interior)
+
+
+@curvature_pass(
+    symbol="h_⊥",
+    formula="−**H**·**A** / |**A**|²",
+    kind="density",
+    length_exponent=-1,
+    mean_degree=1,
+    parity="odd",
+    signed=True,
+    preserves="the part of **H**_p along **A**_p: how area changes when the vertex moves along its normal",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces",
+)
+def h_perp(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+    """Mean curvature from the component of H_vec along A_vec, positive where convex."""
+    perp = ratio(-dot(H_vec, star_vector), dot(star_vector, star_vector), pointed(surface, star_vector, star_area))
+    return null_where(surface.without_orientation, perp)
+
+
+@curvature_pass(public=False)
+def normal_ratio(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+    """−|**H**|²/(**H**·**A**) by the star's own orientation, also where the surface has none."""
+    product, square = dot(H_vec, star_vector), dot(H_vec, H_vec)
+    kept = np.abs(product) >= LOST * np.sqrt(square * dot(star_vector, star_vector))
+    quotient = ratio(square, np.abs(product), kept & pointed(surface, star_vector, star_area))
+    return np.where(product < 0, quotient, 0.0 - quotient)
+
+
+@curvature_pass(
+    symbol="h_N",
+    formula="−|**H**|² / (**H**·**A**)",
+    kind="density",
+    length_exponent=-1,
+    mean_degree=1,
+    parity="odd",
+    signed=True,
+    preserves="how area changes per volume when the vertex moves along **H**_p",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces",
+)
+def h_normal(surface: Surface, normal_ratio: Column) -> Column:
+    """Mean curvature when the vertex moves along H_vec, positive where convex; null where |H·A| < 1e-12 |H||A|."""
+    return null_where(surface.without_orientation, normal_ratio)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..declare import Column, Flags, Quantity, curvature_pass
+from .star import null_where
 
 _SHARED = {
     "kind": "density",
@@ -31,3 +32,36 @@ def principal_curvatures(h_signed: Column, K_density: Column) -> tuple[Column | 
     clamped = radicand < 0
     root = np.sqrt(np.maximum(radicand, 0.0))
     return half + root, half - root, clamped
+
+
+@curvature_pass(
+    symbol="S",
+    formula="(2/π) atan((κ₁ + κ₂)/(κ₁ − κ₂))",
+    kind="ratio",
+    parity="odd",
+    signed=True,
+    preserves="invariant under scaling; +1 on a convex cap, 0 on a symmetric saddle, −1 in a cup",
+    boundary="null",
+    source="Sullivan, Curvatures of smooth surfaces; Koenderink and van Doorn, Surface shape and curvature scales",
+)
+def shape_index(kappa_1: Column, kappa_2: Column) -> Column:
+    """Koenderink's shape index; null at umbilics and planes, where κ₁ = κ₂."""
+    index = (2 / np.pi) * np.arctan2(kappa_1 + kappa_2, kappa_1 - kappa_2)
+    return null_where(kappa_1 == kappa_2, index)
+
+
+@curvature_pass(
+    symbol="C",
+    formula="√((κ₁² + κ₂²)/2)",
+    kind="density",
+    length_exponent=-1,
+    preserves="even in the normal: defined where the surface has no orientation",
+    boundary="null",
+    source="Sullivan, Curvatures of smooth surfaces; Koenderink and van Doorn, Surface shape and curvature scales",
+)
+def curvedness(h: Column, K_density: Column) -> Column:
+    """Koenderink's curvedness: how strongly the surface is bent, whichever way."""
+    half = 0.5 * h
+    root = np.sqrt(np.maximum(half * half - K_density, 0.0))
+    size: Column = np.hypot(half + root, half - root) * np.sqrt(0.5)
+    return size

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..blocks import dot
 from ..declare import Column, VectorColumn, curvature_pass
 from ..surface import Surface
+from .mean import pointed
 from .star import ratio
 
 
@@ -34,3 +35,32 @@ def willmore(h: Column, star_area: Column) -> Column:
 def willmore_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Column:
     """Willmore energy of the star from the mean curvature vector and the area."""
     return ratio(dot(H_vec, H_vec), star_area, surface.interior)
+
+
+@curvature_pass(
+    symbol="h_⊥² A_p",
+    formula="h_⊥² A_p",
+    mean_degree=2,
+    total="willmore_perp",
+    preserves="Σ → 16π on spheres, 8π² on the Clifford torus",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces",
+)
+def willmore_perp(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+    """Willmore energy of the star from h_perp; needs no global orientation."""
+    perp = ratio(dot(H_vec, star_vector), dot(star_vector, star_vector), pointed(surface, star_vector, star_area))
+    return perp * perp * star_area
+
+
+@curvature_pass(
+    symbol="h_N² A_p",
+    formula="h_N² A_p",
+    mean_degree=2,
+    total="willmore_normal",
+    preserves="Σ → 16π on spheres, 8π² on the Clifford torus",
+    boundary="null",
+    source="Sullivan, CMC and Willmore surfaces",
+)
+def willmore_normal(normal_ratio: Column, star_area: Column) -> Column:
+    """Willmore energy of the star from h_normal; needs no global orientation."""
+    return normal_ratio * normal_ratio * star_area
