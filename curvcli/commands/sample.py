@@ -1,0 +1,120 @@
+"""`curvcli sample`: test surfaces made by formulas, with what is exactly known about them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from . import options
+
+if TYPE_CHECKING:
+    from ..samples.model import Sample, SampleSpec
+
+
+@click.command("sample", short_help="Write a test surface with known curvatures.")
+@click.argument("name", required=False)
+@click.option(
+    "-o",
+    "--output",
+    "outputs",
+    metavar="PATH",
+    multiple=True,
+    help="Write .obj .ply .stl (the mesh; .ply with its exact curvatures) or .csv .tsv .parquet .npz (their table); "
+    "repeatable.",
+)
+@click.option("--size", type=click.IntRange(4), help="Wanted number of vertices, about.")
+@click.option("--scale", type=float, default=1.0, show_default=True, help="Multiply all lengths.")
+@click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, help="A parameter of the surface.")
+@click.option("--ascii", "ascii_stl", is_flag=True, help="Write .stl as text, which keeps doubles.")
+@options.force
+@options.talking
+def command(
+    name: str | None,
+    outputs: tuple[str, ...],
+    size: int | None,
+    scale: float,
+    settings: tuple[str, ...],
+    ascii_stl: bool,
+    force: bool,
+    quiet: bool,
+    verbose: int,
+) -> None:
+    """Make the surface NAME, with a table of its exact curvatures where they are known.
+
+    Without NAME, lists all surfaces; without -o, tells what is known about one.
+
+    \b
+      curvcli sample
+      curvcli sample torus --set major=3 --size 10000 -o torus.ply -o exact.csv
+    """
+    from ..report.samples import describe, listing
+    from ..samples import get
+
+    if name is None:
+        if outputs:
+            raise click.UsageError("no NAME given for the outputs", click.get_current_context())
+        listing()
+        return
+    spec = get(name)
+    if scale <= 0:
+        raise click.BadParameter(f"{scale} is not positive", param_hint="--scale")
+    values = spec.parse(_pairs(settings))
+    if size is not None:
+        if all(parameter.name != "size" for parameter in spec.parameters):
+            raise click.UsageError(f"{spec.name} has no size: it is always the same mesh", click.get_current_context())
+        values["size"] = size
+    if outputs:
+        _write(spec, values, scale, outputs, ascii_stl, force)
+    else:
+        describe(spec, spec(**values).scaled(scale))
+
+
+def _pairs(settings: tuple[str, ...]) -> dict[str, str]:
+    pairs = {}
+    for setting in settings:
+        key, equals, value = setting.partition("=")
+        if not equals or not key:
+            raise click.BadParameter(f"{setting!r} is not NAME=VALUE", param_hint="--set")
+        pairs[key.strip()] = value.strip()
+    return pairs
+
+
+def _write(
+    spec: SampleSpec,
+    values: dict[str, Any],
+    scale: float,
+    outputs: tuple[str, ...],
+    ascii_stl: bool,
+    force: bool,
+) -> None:
+    from ..output.atomic import Outputs
+    from ..output.formats import format_of
+
+    kinds = {path: format_of(path, kinds=("table", "mesh", "triangles")) for path in outputs}
+    with Outputs(outputs, force) as files:
+        made = spec(**values).scaled(scale)
+        for path, kind in kinds.items():
+            with files.open(path) as stream:
+                _write_one(stream, made, kind.suffix, ascii_stl)
+
+
+def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool) -> None:
+    import numpy as np
+
+    from ..output.meshes import write_mesh
+    from ..output.stl import write_stl_text
+    from ..output.tables import write_table
+    from .main import say
+
+    if suffix == ".stl" and ascii_stl:
+        write_stl_text(stream, made.points, made.faces)
+    elif suffix in (".ply", ".obj", ".stl"):
+        comments = [f"curvcli sample {made.name}: {made.description}"]
+        for notice in write_mesh(
+            stream, suffix, made.points, made.faces, vertex_properties=made.exact, comments=comments
+        ):
+            say(notice.message)
+    else:
+        index = {"vertex": np.arange(len(made.points), dtype=np.int32)}
+        write_table(stream, index | dict(zip("xyz", made.points.T, strict=True)) | made.exact, suffix)

@@ -1,0 +1,49 @@
+"""The catalogue of test surfaces, for the terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from ..samples import specs
+
+if TYPE_CHECKING:
+    from ..samples.model import Sample, SampleSpec
+
+
+def listing() -> None:
+    """Print all surfaces with what they are."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    table.add_column("name", no_wrap=True)
+    table.add_column("surface")
+    for spec in specs():
+        table.add_row(spec.name, escape(spec.summary))
+    console = Console(highlight=False)
+    console.print(table)
+    console.print("[dim]`curvcli sample NAME` tells what is known about one; -o FILE writes it[/dim]")
+
+
+def describe(spec: SampleSpec, made: Sample) -> None:
+    """Print one surface: its parameters, and what is exactly known about it."""
+    table = Table(box=None, show_header=False, pad_edge=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(overflow="fold")
+    table.add_row(spec.name, escape(spec.summary))
+    table.add_row("mesh", f"{len(made.points):,} vertices, {len(made.faces):,} faces")
+    given = ", ".join(f"{p.name}={p.default}" for p in spec.parameters)
+    table.add_row("parameters", f"{given}  (--set NAME=VALUE)" if given else "none")
+    table.add_row("known", escape(spec.exact))
+    table.add_row("per vertex", ", ".join(made.exact) or "nothing")
+    for label, known in (("of this mesh", made.facts), ("of the limit", made.limit)):
+        for key, value in known.items():
+            table.add_row(label, f"{key} = {_shown(value)}")
+            label = ""
+    Console(highlight=False).print(table)
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.15g}" if isinstance(value, float) else str(value)
