@@ -18,7 +18,7 @@ BLANK, NEWLINE = 32, 10
 _BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
 _TOKEN_PER_LINE = bytes.maketrans(b" ", b"\n")
 _BLOCK = 1 << 20
-SMALL = 1 << 16
+SMALL = 1 << 18
 """Texts up to this many bytes are read without polars: importing it would take longer than reading them."""
 
 
@@ -214,6 +214,7 @@ def _read_csv(data: bytes, schema: dict, separator: str, columns: range):  # typ
         columns=list(columns),
         separator=separator,
         quote_char=None,
+        encoding="utf8-lossy",
         ignore_errors=True,
         truncate_ragged_lines=True,
     )

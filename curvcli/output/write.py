@@ -14,8 +14,6 @@ from ..errors import Notice, UsageError
 from ..tables import vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import format_of
-from .meshes import beside_input, write_mesh
-from .tables import parse_precision, write_table
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -66,6 +64,8 @@ def write_into(
         kind = format_of(path, name=stream_format if path == "-" else None)
         with outputs.open(path) as stream:
             if kind.kind == "table":
+                from .tables import write_table
+
                 write_table(stream, vertex_table(analysis), kind.suffix, precision=appearance.precision)
             elif kind.kind == "mesh":
                 notices += _write_mesh(stream, analysis, kind.suffix, appearance)
@@ -81,10 +81,13 @@ def check_appearance(appearance: Appearance, chosen: list[str]) -> None:
 
     Errors: UsageError.
     """
-    from .colors import colorize
+    if appearance.precision != "shortest":
+        from .tables import parse_precision
 
-    parse_precision(appearance.precision)
+        parse_precision(appearance.precision)
     if appearance.cmap is not None or appearance.value_range is not None:
+        from .colors import colorize
+
         colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
     if appearance.color_by is not None:
         _colored_column(appearance.color_by, chosen)
@@ -119,6 +122,8 @@ def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale]
 
 
 def _write_mesh(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[Notice]:
+    from .meshes import beside_input, write_mesh
+
     surface, file = analysis.surface, analysis.surface.file
     colored = colors(analysis, appearance)
     ours: Mapping[str, Any] = vertex_properties(analysis) if suffix == ".ply" else {}
