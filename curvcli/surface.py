@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .blocks import signed_volumes
 from .errors import InputError, Notice
 from .groups import Groups, by_component, whole
 from .orientation import Orientation, Sign, orient, orient_stars, same_direction
@@ -326,8 +327,6 @@ class Surface:
         candidates = self.closed_patches & found.orientable
         if not candidates.any():
             return candidates
-        from .blocks import signed_volumes  # blocks stand above the surface; only this question reaches up
-
         volume = signed_volumes(self, found.patch)
         if found.face_sign is not None:
             volume *= found.face_sign
