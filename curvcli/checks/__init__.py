@@ -1,6 +1,6 @@
 """Identities that must hold exactly, one file per idea."""
 
-from . import gauss_bonnet, variation, balance  # noqa: F401, I001  (the order of the report)
+from . import gauss_bonnet, variation, balance, dirichlet  # noqa: F401, I001  (the order of the report)
 from .base import Check, CheckRule, rules
 
 __all__ = ["Check", "CheckRule", "rules"]

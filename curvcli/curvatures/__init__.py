@@ -11,4 +11,5 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     principal,
     willmore,
     conformal,
+    dirichlet,
 )

@@ -1,0 +1,46 @@
+"""The identity is as harmonic as the surface is minimal."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import EPSILON, dot
+from ..declare import Column, Flags, VectorColumn
+from ..groups import Groups
+from ..surface import Surface
+from .base import Outcome, check, exclude_null, rounding
+
+
+@check
+def dirichlet(
+    surface: Surface,
+    groups: Groups,
+    dirichlet: Column,
+    dirichlet_gradient: VectorColumn,
+    face_area: Column,
+    star_gradient: VectorColumn,
+    degenerate: Flags,
+    dirichlet_terms: Column,
+    dirichlet_gradient_terms: Column,
+) -> Outcome:
+    """E(id) = area and ∇_p E(id) = ∇_p area: the identity is harmonic where the surface is discrete minimal."""
+    value, expected = groups.faces.sum(dirichlet), groups.faces.sum(face_area)
+    tolerance = rounding(surface, groups.faces.sum(dirichlet_terms))
+    gap = dirichlet_gradient - star_gradient
+    # Each gradient is a running sum over the star, so its bound grows with the number of faces there.
+    allowed = (16 + surface.corner_count) * EPSILON * dirichlet_gradient_terms
+    with np.errstate(divide="ignore", invalid="ignore"):
+        strain = np.where(allowed > 0, np.sqrt(dot(gap, gap)) / allowed, np.nan)
+    lost = np.isnan(dirichlet_gradient).any(axis=0) | np.isnan(star_gradient).any(axis=0)
+    strain[lost & surface.referenced & ~degenerate] = np.inf
+    worst = groups.vertices.max(strain)
+
+    def detail(g: int) -> str:
+        return f"E(id) against the area; ∇_p E(id) differs from ∇_p area by at most {worst[g]:.2g} of what is allowed"
+
+    # Both must hold: a gradient beyond its bound is carried into the residual, in units of its own bound.
+    residual = np.abs(value - expected)
+    residual = np.where(worst > 1, np.maximum(residual, tolerance * worst), residual)
+    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)
+    exclude_null(outcome, groups, surface, degenerate, "the cotangent of a degenerate face")
+    return outcome
