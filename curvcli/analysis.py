@@ -209,7 +209,7 @@ def analyze(
     *,
     area: Literal["barycentric", "mixed", "voronoi"] = "barycentric",
     mean: Literal["sum", "average"] = "sum",
-    orient: Orient = "file",
+    orient: Orient | None = None,
     weld: str | float = "auto",
     unit: str | None = None,
 ) -> Analysis:
@@ -217,8 +217,8 @@ def analyze(
 
     surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
     passes: a preset (`topology`, `core`, `paper`, `all`) or names. area: the cell of `K_density`. mean: whether H is
-    κ₁ + κ₂ or their average. orient: `outward` turns closed patches inside out. weld: see `curvcli.load`.
-    unit: a label for lengths.
+    κ₁ + κ₂ or their average. orient: `file`, or `outward` to turn closed patches that are inside out; None is what a
+    Surface was made with, else `file`. weld: see `curvcli.load`. unit: a label for lengths.
     Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
     """
     chosen = resolve([passes] if isinstance(passes, str) else passes)
@@ -227,5 +227,5 @@ def analyze(
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld)
     welded = "exact" if weld == "auto" and found.file is not None and found.file.format == "stl" else str(weld)
-    conventions = Conventions(mean, area, orient, "none" if welded == "auto" else welded, unit)
+    conventions = Conventions(mean, area, found.orient, "none" if welded == "auto" else welded, unit)
     return Analysis(found, chosen, conventions)

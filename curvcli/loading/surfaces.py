@@ -45,15 +45,24 @@ def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
         raise
 
 
-def as_surface(given: Any, *, orient: Orient = "file", weld: str | float = "auto") -> Surface:
+def as_surface(given: Any, *, orient: Orient | None = None, weld: str | float = "auto") -> Surface:
     """A Surface from a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays.
 
+    orient: None keeps a Surface's own choice and is `file` for the rest.
     Errors: InputError for a mesh that is no surface; TypeError for anything else.
     """
     if isinstance(given, Surface):
-        if given.orient == orient:
+        if orient in (None, given.orient):
             return given
-        return Surface(given.points, given.faces, orient=orient, polygon=given.polygon, file=given.file)
+        return Surface(
+            given.points,
+            given.faces,
+            orient=orient or "file",
+            polygon=given.polygon,
+            file=given.file,
+            notices=given.notices,
+        )
+    orient = orient or "file"
     if isinstance(given, str | os.PathLike) or hasattr(given, "read"):
         return load(given, orient=orient, weld=weld)
     if hasattr(given, "vertices") and hasattr(given, "faces"):
