@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 from hypothesis import strategies as st
 
-from .meshes import Mesh, mesh, of_sample, zoo
+from tests.meshes import Mesh, mesh, of_sample, zoo
 
 _BODIES = ("tetrahedron", "torus", "ellipsoid", "two_bodies", "klein_bottle")
 _SHEETS = ("grid", "cap", "mobius")
