@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,6 +17,8 @@ from .errors import Notice, UsageError
 from .groups import Groups
 from .loading.surfaces import Orient, as_surface
 from .pipeline import evaluate, presented, resolve, schedule
+from .regions import Regions, cut_apart, find_regions
+from .regions import findings as region_findings
 from .surface import Surface
 from .totals import totals
 
@@ -25,11 +27,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 
-# Checks of components are listed one by one up to this many components; beyond, those that do not pass.
-LISTED_COMPONENTS = 100
+# Checks of components and regions are listed one by one up to this many; beyond, those that fail.
+LISTED_GROUPS = 100
 
 # What the report's statistics and the default check need whatever is asked for.
-_ALWAYS = ("status", "degree", "star_area", "face_area", "degenerate_face", "K", "kappa_g")
+_ALWAYS = ("status", "degree", "star_area", "star_vector", "face_area", "degenerate_face", "K", "kappa_g")
 
 
 @dataclass(frozen=True)
@@ -41,15 +43,20 @@ class Conventions:
     orient: str = "file"
     weld: str = "none"
     unit: str | None = None
+    regions: str | None = None
 
 
 class Columns(Mapping[str, Array]):
-    """Columns of one element by name, read-only; a vector is there by its stem as (n, 3) and by its components."""
+    """Columns of one element by name, read-only; a vector is there by its stem as (n, 3) and by its components.
+
+    Of vertices, the passes chosen; of edges and faces all there are, computed when they are first asked for.
+    """
 
     def __init__(self, analysis: Analysis, element: Element) -> None:
         self._analysis = analysis
         self._quantities: dict[str, tuple[Quantity, int | None]] = {}
-        for name in analysis.chosen:
+        offered = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
+        for name in offered:
             quantity = passes.quantity(name)
             if quantity.on == element:
                 self._quantities[quantity.stem] = (quantity, None)
@@ -77,13 +84,19 @@ class Analysis:
     Columns are in the file's unit of length and in the chosen convention for H; NaN is undefined.
     """
 
-    def __init__(self, surface: Surface, chosen: list[str], conventions: Conventions) -> None:
-        self.surface, self.chosen, self.conventions = surface, chosen, conventions
+    def __init__(
+        self, surface: Surface, chosen: list[str], conventions: Conventions, regions: Regions | None = None
+    ) -> None:
+        self.surface, self.chosen, self.conventions, self.regions = surface, chosen, conventions, regions
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
         self._rules = self._applicable_rules()
         wanted = {*chosen, *_ALWAYS, *self._totalled, *(need for rule in self._rules for need in rule.needs)}
         self.columns = evaluate(surface, wanted, area=conventions.area)
+        self.cut: Analysis | None = None
+        if regions is not None:
+            cut, self.cut_groups = cut_apart(surface, regions)
+            self.cut = Analysis(cut, chosen, conventions)
 
     @cached_property
     def _closure(self) -> set[str]:
@@ -103,8 +116,10 @@ class Analysis:
     # ------------------------------------------------------------------ columns
 
     def column(self, name: str) -> Array:
-        """One computed column as a user sees it: (n,), (n, 3), or strings for labels."""
+        """One column as a user sees it: (n,), (n, 3), or strings for labels."""
         quantity = passes.quantity(name)
+        if name not in self.columns:
+            self.columns = evaluate(self.surface, [name], area=self.conventions.area, known=self.columns)
         if quantity.labels:
             return np.array(quantity.labels)[self.columns[name]]
         return presented(quantity, self.columns[name], self.surface, self.conventions.mean)
@@ -139,11 +154,18 @@ class Analysis:
     def checks(self) -> list[Check]:
         """Every identity that the chosen passes allow to be tested, on the whole and on each component."""
         found = [check for rule in self._rules for check in rule.run(self.surface, self.surface.whole, self.columns)]
-        components = self.surface.components
-        if components.count > 1:
-            for rule in self._rules:
-                each = rule.run(self.surface, components, self.columns)
-                found += each if components.count <= LISTED_COMPONENTS else summarised(each)
+        if self.surface.components.count > 1:
+            found += self._checked(self.surface.components)
+        if self.cut is not None:
+            found += self.cut._checked(self.cut_groups)
+        return found
+
+    def _checked(self, groups: Groups) -> list[Check]:
+        """The checks of every group, or of those that fail where there are very many."""
+        found: list[Check] = []
+        for rule in self._rules:
+            each = rule.run(self.surface, groups, self.columns)
+            found += each if groups.count <= LISTED_GROUPS else summarised(each, f"{groups.kind}s")
         return found
 
     @property
@@ -158,7 +180,10 @@ class Analysis:
 
     @cached_property
     def _findings(self) -> list[Notice]:
-        return findings.of_surface(self.surface, self.columns)
+        found = findings.of_surface(self.surface, self.columns)
+        if self.cut is not None:
+            found += region_findings(self.cut.surface, self.cut_groups)
+        return found
 
     # ------------------------------------------------------------------ outputs
 
@@ -175,21 +200,17 @@ class Analysis:
         write_outputs(self, [str(path)], force=force)
 
 
-def summarised(checks: list[Check]) -> list[Check]:
-    """The checks of very many components: those that fail, and one line for the rest."""
+def summarised(checks: list[Check], scope: str) -> list[Check]:
+    """The checks of very many groups: those that fail, and one line for the rest."""
     failed = [check for check in checks if check.status == "fail"]
     if failed or not checks:
         return failed
     passed = sum(check.status == "pass" for check in checks)
     worst = max((check for check in checks if check.status == "pass"), key=_strain, default=None)
     if worst is None:
-        return [Check(checks[0].name, "components", "not_applicable", None, None, None, None, checks[0].detail)]
-    detail = (
-        f"{passed} of {len(checks)} components pass, the others are not applicable; {worst.scope} is the closest call"
-    )
-    return [
-        Check(worst.name, "components", "pass", worst.value, worst.expected, worst.residual, worst.tolerance, detail)
-    ]
+        return [Check(checks[0].name, scope, "not_applicable", None, None, None, None, checks[0].detail)]
+    detail = f"{passed} of {len(checks)} {scope} pass, the others are not applicable; {worst.scope} is the closest call"
+    return [replace(worst, scope=scope, detail=detail)]
 
 
 def _strain(check: Check) -> float:
@@ -212,13 +233,15 @@ def analyze(
     orient: Orient | None = None,
     weld: str | float = "auto",
     unit: str | None = None,
+    regions: str | NDArray[np.integer[Any]] | None = None,
 ) -> Analysis:
     """Compute curvatures of a surface, its totals and the identities that prove them.
 
     surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
     passes: a preset (`topology`, `core`, `paper`, `all`) or names. area: the cell of `K_density`. mean: whether H is
     κ₁ + κ₂ or their average. orient: `file`, or `outward` to turn closed patches that are inside out; None is what a
-    Surface was made with, else `file`. weld: see `curvcli.load`. unit: a label for lengths.
+    Surface was made with, else `file`. weld: see `curvcli.load`. unit: a label for lengths. regions: a label per face
+    (negative: none), or the name of the file, record or property that holds them.
     Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
     """
     chosen = resolve([passes] if isinstance(passes, str) else passes)
@@ -227,5 +250,6 @@ def analyze(
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld)
     welded = "exact" if weld == "auto" and found.file is not None and found.file.format == "stl" else str(weld)
-    conventions = Conventions(mean, area, found.orient, "none" if welded == "auto" else welded, unit)
-    return Analysis(found, chosen, conventions)
+    named = regions if regions is None or isinstance(regions, str) else "array"
+    conventions = Conventions(mean, area, found.orient, "none" if welded == "auto" else welded, unit, named)
+    return Analysis(found, chosen, conventions, None if regions is None else find_regions(found, regions))

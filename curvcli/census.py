@@ -17,7 +17,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Census:
-    """Counts per group; `boundary_loops`, `genus` and `crosscaps` are -1 here where they are null in the report."""
+    """Counts and yes-or-no answers per group."""
 
     vertices: Counts
     edges: Counts
@@ -68,27 +68,39 @@ def _count(surface: Surface, groups: Groups) -> Census:
 
 
 @dataclass(frozen=True)
-class Genus:
-    """Boundary loops, genus and crosscaps per component; NaN where they are null."""
+class Classification:
+    """Components per group, and their boundary loops, genus and crosscaps summed; NaN where one of them is null."""
 
+    components: Counts
     boundary_loops: NDArray[np.float64]
     genus: NDArray[np.float64]
     crosscaps: NDArray[np.float64]
 
 
-def genus(surface: Surface) -> Genus:
-    """Classify each component that is a manifold: χ = 2 − 2g − loops if orientable, 2 − crosscaps − loops if not."""
-    groups = surface.components
-    counts = census(surface, groups)
-    loops = np.zeros(groups.count)
+def classify(surface: Surface, groups: Groups) -> Classification:
+    """Classify the components that are manifolds: χ = 2 − 2g − loops if orientable, 2 − crosscaps − loops if not."""
+    pieces = surface.components
+    counts = census(surface, pieces)
+    loops = np.zeros(pieces.count)
     if len(surface.boundary_half_edges):
         number, loop_of = surface.boundary_loop_of
         component = np.empty(number, np.int64)
-        component[loop_of] = groups.face[surface.boundary_half_edges // 3]
-        loops = np.bincount(component, minlength=groups.count).astype(np.float64)
+        component[loop_of] = pieces.face[surface.boundary_half_edges // 3]
+        loops = np.bincount(component, minlength=pieces.count).astype(np.float64)
     loops[~counts.manifold] = np.nan
     missing = 2 - counts.euler_characteristic - loops
-    return Genus(loops, np.where(counts.orientable, missing / 2, np.nan), np.where(counts.orientable, np.nan, missing))
+    first = np.unique(pieces.face, return_index=True)[1] if pieces.count > 1 else np.zeros(1, np.int64)
+    group = groups.face[first]
+
+    def summed(values: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(np.bincount(group, values, minlength=groups.count), np.float64)
+
+    return Classification(
+        np.bincount(group, minlength=groups.count),
+        summed(loops),
+        summed(np.where(counts.orientable, missing / 2, np.nan)),
+        summed(np.where(counts.orientable, np.nan, missing)),
+    )
 
 
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:

@@ -79,7 +79,7 @@ class Segments:
 class Groups:
     """A partition of a surface's faces, with the vertices and edges that go with each part.
 
-    kind: `whole`, `component` or `region`. face: (F,) group of each face.
+    kind: `whole`, `component` or `region`. face: (F,) group of each face. names: what each is called, if not by number.
     """
 
     kind: str
@@ -88,38 +88,30 @@ class Groups:
     faces: Segments
     vertices: Segments
     edges: Segments
+    names: tuple[str, ...] = ()
 
     def scope(self, group: int) -> str:
         """How a group is named in checks and messages."""
-        return self.kind if self.kind == "whole" else f"{self.kind} {group}"
+        return self.kind if self.kind == "whole" else f"{self.kind} {self.names[group] if self.names else group}"
 
     def of(self, element: str) -> Segments:
         """The segments of `vertex`, `edge` or `face` values."""
         return {"vertex": self.vertices, "edge": self.edges, "face": self.faces}[element]
 
 
-def whole(surface: Surface, kind: str = "whole") -> Groups:
+def whole(surface: Surface, kind: str = "whole", names: tuple[str, ...] = ()) -> Groups:
     """The whole surface as one group; unreferenced vertices have only nulls to add."""
-    return Groups(
-        kind,
-        1,
-        np.zeros(surface.n_faces, np.int32),
-        Segments(None, 1, surface.n_faces),
-        Segments(None, 1, surface.n_vertices),
-        Segments(None, 1, len(surface.edges)),
-    )
+    sizes = surface.n_faces, surface.n_vertices, len(surface.edges)
+    faces, vertices, edges = (Segments(None, 1, size) for size in sizes)
+    return Groups(kind, 1, np.zeros(surface.n_faces, np.int32), faces, vertices, edges, names)
 
 
-def by_component(surface: Surface, face: Index, count: int) -> Groups:
-    """One group per component, given the component of each face."""
+def by_label(surface: Surface, face: Index, count: int, kind: str, names: tuple[str, ...] = ()) -> Groups:
+    """Groups of faces that share no vertex, given the group of each face."""
+    if count == 1:
+        return whole(surface, kind, names)
     vertex = np.full(surface.n_vertices, -1, np.int32)
     vertex[surface.faces.ravel()] = np.repeat(face, 3)
-    edge = vertex[surface.edges.a]
-    return Groups(
-        "component",
-        count,
-        face,
-        Segments(face, count, len(face)),
-        Segments(vertex, count, len(vertex)),
-        Segments(edge, count, len(edge)),
-    )
+    labels = face, vertex, vertex[surface.edges.a]
+    faces, vertices, edges = (Segments(label, count, len(label)) for label in labels)
+    return Groups(kind, count, face, faces, vertices, edges, names)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .blocks import signed_volumes
 from .errors import InputError, Notice
-from .groups import Groups, by_component, whole
+from .groups import Groups, by_label, whole
 from .orientation import Orientation, Sign, orient, orient_stars, same_direction
 from .topology import (
     Edges,
@@ -342,7 +342,7 @@ class Surface:
         if count - loose == 1:
             return whole(self, "component")
         pieces, face = renumber_by_lowest_member(vertex[self.faces[:, 0]], count)
-        return by_component(self, face, pieces)
+        return by_label(self, face, pieces, "component")
 
     @cached_property
     def whole(self) -> Groups:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import dot, signed_volumes
-from .census import census
+from .blocks import EPSILON, dot, signed_volumes
+from .census import census, classify
 from .declare import Quantity, passes
 from .groups import Groups
 from .surface import Surface
@@ -72,3 +72,39 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
         "residual_max": np.where(orientable, vertices.max(np.sqrt(dot(residual, residual))), np.nan),
         "H_vec_max": vertices.max(np.sqrt(dot(H_vec, H_vec))),
     }
+
+
+def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
+    """Steiner's polynomial Vol + t·Area + t²/2·ΣH_theta + t³/3·ΣK, (G, 4), and whether each body is convex.
+
+    For a convex body it is the volume at distance t. NaN where the volume is. Convex: closed, connected, χ = 2 and
+    ΣK⁻ ≤ 16 ε (F + V).
+    """
+    counts = census(surface, groups)
+    integrals = [
+        volumes(surface, groups),
+        groups.faces.sum(columns["face_area"]),
+        groups.edges.sum(columns["H_theta"]) / 2,
+        groups.vertices.sum(columns["K"]) / 3,
+    ]
+    shown = [surface.in_file_unit(value, 3 - power) for power, value in enumerate(integrals)]
+    coefficients = np.where(np.isnan(integrals[0])[:, None], np.nan, np.stack(shown, axis=1))
+    sphere = counts.closed & counts.manifold & (counts.euler_characteristic == 2)
+    single = classify(surface, groups).components == 1
+    bent = groups.vertices.sum(columns["K_minus"]) > 16 * EPSILON * (counts.faces + counts.vertices)
+    return {"coefficients": coefficients, "convex": sphere & single & ~bent}
+
+
+def competing_normals(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
+    """The angle between the lines of **H**_p and **A**_p over interior vertices: its largest and its mean value.
+
+    Both are normals of the surface at p: the one decreases its area fastest, the other increases its volume fastest.
+    """
+    H_vec, A_vec = columns["H_vec"], columns["star_vector"]
+    across = np.cross(H_vec, A_vec, axis=0)
+    angle = np.arctan2(np.sqrt(dot(across, across)), np.abs(dot(H_vec, A_vec)))
+    known = surface.interior & (dot(H_vec, H_vec) > 0) & (dot(A_vec, A_vec) > 0)
+    angle = np.where(known, angle, np.nan)
+    with np.errstate(invalid="ignore"):
+        mean = groups.vertices.sum(angle) / groups.vertices.count_true(known)
+    return {"angle_max": groups.vertices.max(angle), "angle_mean": mean}

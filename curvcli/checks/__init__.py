@@ -1,6 +1,13 @@
 """Identities that must hold exactly, one file per idea."""
 
-from . import gauss_bonnet, variation, balance, dirichlet  # noqa: F401, I001  (the order of the report)
+from . import (  # noqa: F401, I001  (the order of the report)
+    gauss_bonnet,
+    holonomy,
+    balance,
+    variation,
+    first_variation,
+    dirichlet,
+)
 from .base import Check, CheckRule, rules
 
 __all__ = ["Check", "CheckRule", "rules"]

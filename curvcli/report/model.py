@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
 
 from .._version import __version__
-from ..census import Census, Genus, census, duplicate_faces, duplicate_vertices, genus
+from ..census import census, classify, duplicate_faces, duplicate_vertices
 from ..declare import passes
 from ..groups import Groups
 from ..surface import Surface
-from ..totals import constant_mean_curvature
+from ..totals import competing_normals, constant_mean_curvature, steiner
 from .statistics import ColumnStatistics, statistics
 
 if TYPE_CHECKING:
@@ -69,13 +70,30 @@ class Minimal(msgspec.Struct):
     H_vec_max: float | None
 
 
+class Steiner(msgspec.Struct):
+    """Steiner's polynomial, lowest power first; exact for convex bodies."""
+
+    coefficients: list[float | None] | None
+    convex: bool
+
+
+class Normals(msgspec.Struct):
+    """The angle between the two competing normals, H_vec and A_vec, in radians."""
+
+    angle_max: float | None
+    angle_mean: float | None
+
+
 class Piece(msgspec.Struct, omit_defaults=True):
-    """The whole surface or one component of it."""
+    """The whole surface, one component or one region of it; `name` of a region."""
 
     topology: Topology
     totals: dict[str, Value]
+    steiner: Steiner | msgspec.UnsetType = msgspec.UNSET
     cmc: Cmc | msgspec.UnsetType = msgspec.UNSET
     minimal: Minimal | msgspec.UnsetType = msgspec.UNSET
+    normals: Normals | msgspec.UnsetType = msgspec.UNSET
+    name: str | msgspec.UnsetType = msgspec.UNSET
 
 
 class CheckRow(msgspec.Struct):
@@ -110,9 +128,12 @@ class Report(msgspec.Struct, omit_defaults=True):
     conventions: dict[str, str | None]
     topology: Topology
     totals: dict[str, Value]
+    steiner: Steiner | msgspec.UnsetType
     cmc: Cmc | msgspec.UnsetType
     minimal: Minimal | msgspec.UnsetType
+    normals: Normals | msgspec.UnsetType
     components: list[Piece]
+    regions: list[Piece]
     columns: dict[str, ColumnStatistics]
     checks: list[CheckRow]
     warnings: list[Remark]
@@ -139,11 +160,7 @@ def schema() -> bytes:
 def model(analysis: Analysis) -> Report:
     """The report of an analysis."""
     surface, file = analysis.surface, analysis.surface.file
-    pieces = _pieces(analysis, surface.components)
-    whole = _pieces(analysis, surface.whole)[0]
-    whole.topology.components = surface.components.count
-    for key in ("boundary_loops", "genus", "crosscaps"):
-        setattr(whole.topology, key, _sum_or_null([getattr(piece.topology, key) for piece in pieces]))
+    whole = pieces(analysis, surface.whole)[0]
     conventions = analysis.conventions
     return Report(
         schema_version=1,
@@ -155,12 +172,15 @@ def model(analysis: Analysis) -> Report:
             vertices=surface.n_vertices,
             polygons=file.polygons if file else surface.n_faces,
         ),
-        conventions={key: getattr(conventions, key) for key in ("mean", "area", "orient", "weld", "unit")},
+        conventions={key: getattr(conventions, key) for key in ("mean", "area", "orient", "weld", "unit", "regions")},
         topology=whole.topology,
         totals=whole.totals,
+        steiner=whole.steiner,
         cmc=whole.cmc,
         minimal=whole.minimal,
-        components=pieces,
+        normals=whole.normals,
+        components=pieces(analysis, surface.components),
+        regions=pieces(analysis.cut, analysis.cut_groups) if analysis.cut is not None else [],
         columns=_columns(analysis),
         checks=[CheckRow(**vars(check)) for check in analysis.checks],
         warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
@@ -168,38 +188,54 @@ def model(analysis: Analysis) -> Report:
     )
 
 
-def _pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
-    surface = analysis.surface
-    counts = census(surface, groups)
-    kinds = genus(surface) if groups.kind == "component" else None
-    defects = _defects(analysis, groups)
+def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
+    """Topology, totals and the rest for each group of a surface."""
+    counts = _counts(analysis, groups)
     totals = {key: _plain(values) for key, values in analysis.totals_of(groups).items()}
-    bent: dict[str, list[Any]] | None = None
-    if {"H_vec", "A_vec"} <= analysis.columns.keys():
-        found = constant_mean_curvature(surface, groups, analysis.columns)
-        factor = 0.5 if analysis.conventions.mean == "average" else 1.0
-        exponents = {"H": -1, "residual_max": 1, "H_vec_max": 1}
-        bent = {key: _plain(surface.in_file_unit(values, exponents[key]) * factor) for key, values in found.items()}
+    extras = _extras(analysis, groups)
     return [
         Piece(
-            _topology(counts, kinds, defects, group),
+            Topology(**{key: values[group] for key, values in counts.items()}),
             {key: values[group] for key, values in totals.items()},
-            Cmc(bent["H"][group], bent["residual_max"][group]) if bent else msgspec.UNSET,
-            Minimal(bent["H_vec_max"][group]) if bent else msgspec.UNSET,
+            name=groups.names[group] if groups.names else msgspec.UNSET,
+            **{key: make(group) for key, make in extras.items()},
         )
         for group in range(groups.count)
     ]
 
 
-def _topology(counts: Census, kinds: Genus | None, defects: dict[str, list[int]], group: int) -> Topology:
-    def classified(key: str) -> int | None:
-        value = math.nan if kinds is None else float(getattr(kinds, key)[group])
-        return None if math.isnan(value) else round(value)
+def _extras(analysis: Analysis, groups: Groups) -> dict[str, Callable[[int], Any]]:
+    """What only some passes allow: for each key a function from the group to its value."""
+    surface, columns = analysis.surface, analysis.columns
+    factor = 0.5 if analysis.conventions.mean == "average" else 1.0
+    found: dict[str, Callable[[int], Any]] = {}
+    if columns.keys() >= {"H_vec", "A_vec"}:
+        bent = constant_mean_curvature(surface, groups, columns)
+        exponents = {"H": -1, "residual_max": 1, "H_vec_max": 1}
+        shown = {key: _plain(surface.in_file_unit(values, exponents[key]) * factor) for key, values in bent.items()}
+        found["cmc"] = lambda group: Cmc(shown["H"][group], shown["residual_max"][group])
+        found["minimal"] = lambda group: Minimal(shown["H_vec_max"][group])
+    if columns.keys() >= {"H_vec", "star_vector"}:
+        angles = {key: _plain(values) for key, values in competing_normals(surface, groups, columns).items()}
+        found["normals"] = lambda group: Normals(angles["angle_max"][group], angles["angle_mean"][group])
+    if columns.keys() >= {"face_area", "H_theta", "K", "K_minus"}:
+        polynomial = steiner(surface, groups, columns)
+        rows = [None if None in row[:1] else row for row in _plain(polynomial["coefficients"])]
+        found["steiner"] = lambda group: Steiner(rows[group], bool(polynomial["convex"][group]))
+    return found
 
-    counted: dict[str, Any] = {key: column[group].item() for key, column in vars(counts).items()}
-    counted |= {key: values[group] for key, values in defects.items()}
-    counted |= {key: classified(key) for key in ("boundary_loops", "genus", "crosscaps")}
-    return Topology(components=1, **{key: counted[key] for key in Topology.__struct_fields__ if key in counted})
+
+def _counts(analysis: Analysis, groups: Groups) -> dict[str, list[Any]]:
+    """The columns of the topology table, one entry per group."""
+    surface = analysis.surface
+    kinds = classify(surface, groups)
+    classified = {
+        key: [None if math.isnan(value) else round(value) for value in getattr(kinds, key)]
+        for key in ("boundary_loops", "genus", "crosscaps")
+    }
+    counted = {key: column.tolist() for key, column in vars(census(surface, groups)).items()}
+    counted |= {"components": kinds.components.tolist()} | classified | _defects(analysis, groups)
+    return {key: counted[key] for key in Topology.__struct_fields__}
 
 
 def _defects(analysis: Analysis, groups: Groups) -> dict[str, list[int]]:
@@ -238,10 +274,6 @@ def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
                 quantity, values, area, surface.referenced, quantity.unit(analysis.conventions.unit)
             )
     return found
-
-
-def _sum_or_null(values: list[int | None]) -> int | None:
-    return None if None in values else sum(value for value in values if value is not None)
 
 
 def _plain(values: Any) -> list[Any]:

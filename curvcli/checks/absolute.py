@@ -1,0 +1,35 @@
+"""Total absolute curvature is at least what the topology demands."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import EPSILON
+from ..census import census, classify
+from ..declare import Column
+from ..groups import Groups
+from ..surface import Surface
+from .base import Outcome, check, exclude_null
+
+
+@check
+def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K_minus: Column) -> Outcome:
+    """ΣK⁺ + ΣK⁻ ≥ 2π(2 + 2g) for each closed orientable component (Chern–Lashof); equality means tight."""
+    counts = census(surface, groups)
+    value = groups.vertices.sum(K_plus) + groups.vertices.sum(K_minus)
+    # 2 + 2g = 4 − χ, summed over the components of the group
+    bound = np.asarray(2 * np.pi * (4 * classify(surface, groups).components - counts.euler_characteristic), np.float64)
+    tolerance = np.asarray(16 * EPSILON * (counts.faces + counts.vertices), np.float64)
+    surplus = value - bound
+
+    def detail(group: int) -> str:
+        if surplus[group] <= tolerance[group]:
+            return "tight: no more curvature than the topology demands"
+        return f"{surplus[group]:.6g} more than the topology demands"
+
+    outcome = Outcome(value, bound, tolerance, detail=detail, residual=np.maximum(-surplus, 0.0))
+    outcome.exclude(~counts.closed, "the surface is not closed")
+    outcome.exclude(~counts.manifold, "the surface is not a manifold")
+    outcome.exclude(~counts.orientable, "the surface has no orientation")
+    exclude_null(outcome, groups, surface, np.isnan(K_plus), "K_plus")
+    return outcome

@@ -1,0 +1,83 @@
+"""Gradients of area and volume against what area and volume do when a vertex is moved."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import EPSILON, cross, dot
+from ..declare import Flags, VectorColumn
+from ..groups import Groups
+from ..surface import Surface
+from .base import Floats, Outcome, check
+
+SAMPLES = 64
+
+
+@check
+def first_variation(
+    surface: Surface, groups: Groups, area_gradient: VectorColumn, A_vec: VectorColumn, degenerate: Flags
+) -> Outcome:
+    """∇_p area and A_p = ∇_p volume against central differences of area and volume at sampled vertices."""
+    usable = np.flatnonzero(surface.referenced & ~degenerate)
+    sample = usable[np.unique(np.linspace(0, len(usable) - 1, SAMPLES).astype(np.int64))] if len(usable) else usable
+    chosen = np.zeros(surface.n_vertices, bool)
+    chosen[sample] = True
+    corner = np.flatnonzero(chosen[surface.faces].ravel())
+    vertex = surface.faces.reshape(-1)[corner]
+    found = _differences(surface, corner, np.searchsorted(sample, vertex), len(sample))
+    strain = np.zeros((2, len(sample)))
+    gradients = area_gradient[:, sample], A_vec[:, sample]
+    for row, gradient, (difference, bound) in zip(strain, gradients, found, strict=True):
+        gap = difference - gradient
+        row[:] = np.sqrt(dot(gap, gap)) / bound
+    worst = np.full(surface.n_vertices, np.nan)
+    worst[sample] = np.fmax(*strain)  # A_vec is null where there is no orientation
+    residual = groups.vertices.max(worst)
+    outcome = Outcome(
+        residual,
+        np.zeros(groups.count),
+        np.ones(groups.count),
+        detail=f"largest deviation over {len(sample)} vertices, in units of the error bound of the differences",
+    )
+    outcome.exclude(np.isnan(residual), "no sampled vertex here has a gradient")
+    return outcome
+
+
+def _differences(
+    surface: Surface, corner: NDArray[np.intp], member: NDArray[np.intp], count: int
+) -> list[tuple[VectorColumn, Floats]]:
+    """Central differences of area and volume for each of `count` vertices, with bounds on their errors.
+
+    corner: the corners at these vertices; member: which vertex each belongs to.
+    """
+    face, k = corner // 3, corner % 3
+    p, q, r = (surface.xyz[:, surface.faces[face, (k + turn) % 3]] for turn in range(3))
+    q, r = q - p, r - p
+    if surface.corner_sign is not None:
+        sign = surface.corner_sign.reshape(-1)[corner].astype(np.float64)
+    else:
+        sign = np.ones(len(corner))
+    opposite = r - q
+    normal = np.array(cross(q, r))
+    length, twice = np.sqrt(dot(opposite, opposite)), np.sqrt(dot(normal, normal))
+    height = twice / length
+    reach = np.sqrt(np.maximum(dot(q, q), dot(r, r)))
+    lowest = np.full(count, np.inf)
+    np.minimum.at(lowest, member, height)
+    # Truncation grows with the square of the step, rounding with its inverse: the cube root of ε balances them.
+    step = EPSILON ** (1 / 3) * lowest
+    area, volume = np.zeros((3, count)), np.zeros((3, count))
+    for axis in range(3):
+        for way in (1.0, -1.0):
+            moved = np.zeros((3, len(corner)))
+            moved[axis] = way * step[member]
+            swept = np.array(cross(q - moved, r - moved))
+            change = way / (2 * step)
+            area[axis] += np.bincount(member, np.sqrt(dot(swept, swept)) / 2, minlength=count) * change
+            # The volume over the face, about p: only the base of the tetrahedron that p's motion spans changes.
+            volume[axis] += np.bincount(member, sign * dot(moved, swept) / 6, minlength=count) * change
+    faces = np.bincount(member, minlength=count)
+    rounding = (16 + faces) * EPSILON * np.bincount(member, reach * reach + length * reach, minlength=count)
+    truncation = step * step * np.bincount(member, length / (height * height), minlength=count)
+    return [(area, rounding / step + truncation), (volume, rounding)]

@@ -1,0 +1,84 @@
+"""Parallel transport round a vertex turns a vector by its curvature."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import EPSILON, cross, dot
+from ..declare import Column, VectorColumn
+from ..groups import Groups
+from ..surface import Surface
+from ..topology import find_twins
+from .base import Outcome, check
+
+# Stars of more faces are left out: the walk takes one step per face.
+LARGEST_STAR = 256
+
+
+@check
+def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorColumn) -> Outcome:
+    """Carrying a tangent vector counterclockwise round p, across one edge after another, turns it by +K_p (mod 2π)."""
+    count = surface.corner_count
+    inside = surface.interior & ~np.isnan(K)
+    walked = np.flatnonzero(inside & (count <= LARGEST_STAR))
+    angle = _transport(surface, walked, unit_normal)
+    gap = np.full(surface.n_vertices, np.nan)
+    gap[walked] = np.abs(np.remainder(angle - K[walked] + np.pi, 2 * np.pi) - np.pi)
+    # Each step rotates by a few ε, and K itself is a sum of as many angles of up to π.
+    faces = np.where(inside, count, 0).astype(np.float64)
+    tolerance = (16 + np.log2(np.maximum(groups.vertices.max(faces), 2.0))) * EPSILON
+    tolerance = tolerance * np.pi * np.maximum(groups.vertices.max(faces), 1.0)
+    residual = groups.vertices.max(gap)
+    left_out = int(np.count_nonzero(inside) - np.count_nonzero(~np.isnan(gap)))
+    detail = "largest deviation of the rotation from K" + (f"; {left_out} vertices not walked" if left_out else "")
+    outcome = Outcome(residual, np.zeros(groups.count), tolerance, detail=detail)
+    outcome.exclude(np.isnan(residual), "no interior vertex whose faces all have an area")
+    return outcome
+
+
+def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: VectorColumn) -> Column:
+    """The angle by which transport round each vertex turns, in space: v keeps its components along and across each edge.
+
+    The walk goes counterclockwise as the first face is wound; where a neighbour is wound the other way its normal is
+    reversed, so that no orientation of the surface is needed.
+    """
+    tail = surface.faces.reshape(-1)
+    twin = find_twins(surface.edges)
+    start = np.full(surface.n_vertices, -1, np.int64)
+    start[tail] = np.arange(len(tail))
+    first = start[vertices]
+    corner, upright = first.copy(), np.ones(len(vertices))
+    normal = unit_normal[:, first // 3]
+    begin = _direction(surface, first)
+    vector = begin.copy()
+    steps = surface.corner_count[vertices]
+    active = np.arange(len(vertices))
+    for step in range(int(steps.max(initial=0))):
+        active = active[steps[active] > step]
+        here, up = corner[active], upright[active]
+        # Counterclockwise is across the edge that enters the corner, or that leaves it where the face is upside down.
+        edge = np.where(up > 0, here - here % 3 + (here + 2) % 3, here)
+        across = twin[edge]
+        same_way = tail[across] == tail[edge]
+        starts_here = tail[across] == tail[here]
+        there = np.where(starts_here, across, across - across % 3 + (across + 1) % 3)
+        span = _direction(surface, edge)
+        before = up * unit_normal[:, here // 3]
+        up = np.where(same_way, -up, up)
+        after = up * unit_normal[:, there // 3]
+        moving = vector[:, active]
+        along, sideways = dot(moving, span), dot(moving, cross(before, span))
+        vector[:, active] = along * span + sideways * np.array(cross(after, span))
+        corner[active], upright[active] = there, up
+    return np.arctan2(dot(cross(begin, vector), normal), dot(begin, vector))
+
+
+def _direction(surface: Surface, half_edges: NDArray[np.integer[Any]]) -> VectorColumn:
+    """Unit vectors along half-edges."""
+    face, corner = half_edges // 3, half_edges % 3
+    a, b = surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]
+    span = surface.xyz[:, b] - surface.xyz[:, a]
+    return span / np.sqrt(dot(span, span))

@@ -1,0 +1,168 @@
+"""Regions: any labelling of the faces, and the surface cut apart along it.
+
+Every integral relation holds for every set of faces. To evaluate it on a region, the surface is cut so that each region
+has its own copy of the vertices on its border; all columns, totals and checks then apply as they stand, with the border
+as boundary. Pinched regions, islands and Möbius strips need no special care.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .census import census
+from .errors import InputError, Notice, UsageError
+from .groups import Groups, by_label
+from .surface import Surface
+from .topology import Index
+
+LABELS = ("groups", "objects", "materials")
+FILES = (".npy", ".csv", ".txt")
+
+
+@dataclass(frozen=True)
+class Regions:
+    """A labelling of the faces.
+
+    face: (F,) region of each face, -1 for none. names: of the regions, in ascending order of label or of first use.
+    """
+
+    face: Index
+    names: tuple[str, ...]
+
+    @property
+    def count(self) -> int:
+        """Number of regions."""
+        return len(self.names)
+
+
+def find_regions(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
+    """The regions that `--regions` names: records of an OBJ file, a face property of a PLY file, a file, or an array.
+
+    Labels are given per polygon of the file, or per triangle where there are as many; a polygon's label passes to its
+    triangles. A negative label is no region.
+    Errors: UsageError for a name that is none of these; InputError for labels that do not fit.
+    """
+    if not isinstance(chosen, str):
+        return _from_labels(surface, np.asarray(chosen), "the labels")
+    file = surface.file
+    if chosen in LABELS:
+        records = file.polygon_labels.get(chosen) if file is not None else None
+        if records is None:
+            raise UsageError(f"--regions {chosen}: the mesh has no {chosen}; {_offered(surface)}")
+        return _numbered(_per_face(surface, records.codes, chosen), records.names)
+    if file is not None and chosen in file.polygon_properties:
+        return _from_labels(surface, file.polygon_properties[chosen], f"face property {chosen}")
+    if os.path.splitext(chosen)[1].lower() in FILES:
+        return _from_labels(surface, read_labels(chosen), chosen)
+    raise UsageError(
+        f"--regions {chosen}: neither a label of this mesh nor a .npy, .csv or .txt file; {_offered(surface)}"
+    )
+
+
+def read_labels(path: str) -> NDArray[Any]:
+    """One label per face from a .npy, .csv or .txt file; a first line that is no number is a header.
+
+    Errors: InputError for a file that cannot be read or holds something else.
+    """
+    try:
+        if path.lower().endswith(".npy"):
+            return np.asarray(np.load(path, allow_pickle=False))
+        with open(path, encoding="utf-8-sig") as stream:
+            lines = [line.strip() for line in stream if line.strip()]
+        if lines and not _is_number(lines[0]):
+            del lines[0]
+        return np.array([float(line) for line in lines])
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", path=path) from None
+    except ValueError as error:
+        raise InputError(f"{error}, expected one whole number per line", path=path) from None
+
+
+def cut_apart(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
+    """The surface with every region on vertices of its own, oriented as the whole is, and its regions as groups."""
+    inside = regions.face >= 0
+    faces = surface.faces.copy()
+    if surface.orientation.face_sign is not None:
+        turned = surface.orientation.face_sign < 0
+        faces[turned] = faces[turned][:, [0, 2, 1]]
+    faces, label = faces[inside], regions.face[inside]
+    corner = np.repeat(label.astype(np.int64), 3) * surface.n_vertices + faces.ravel()
+    own, position = np.unique(corner, return_inverse=True)
+    points = surface.points[own % surface.n_vertices]
+    cut = Surface(points, position.reshape(-1, 3).astype(np.int32))
+    return cut, by_label(cut, label, regions.count, "region", regions.names)
+
+
+def findings(cut: Surface, groups: Groups) -> list[Notice]:
+    """Regions in several pieces or pinched at a vertex: often a label that has slipped."""
+    pieces = np.zeros(groups.count, np.int64)
+    first = np.unique(cut.components.face, return_index=True)[1]
+    np.add.at(pieces, groups.face[first], 1)
+    split = np.flatnonzero(pieces > 1)
+    counts = census(cut, groups)
+    pinched = np.flatnonzero(counts.nonmanifold_vertices > 0)
+    found = [
+        Notice("regions_in_pieces", len(split), "regions are not connected", examples=tuple(map(int, split[:5]))),
+        Notice(
+            "regions_pinched",
+            len(pinched),
+            "regions touch themselves at a vertex",
+            examples=tuple(map(int, pinched[:5])),
+        ),
+    ]
+    return [notice for notice in found if notice.count]
+
+
+def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions:
+    if labels.ndim != 1 or labels.dtype.kind not in "iufb":
+        raise InputError(f"{source}: shape {labels.shape} of {labels.dtype}, expected one whole number per face")
+    whole = labels.astype(np.int64) if np.isfinite(labels).all() else np.full(len(labels), -1)
+    if not (whole == labels).all():
+        first = int(np.flatnonzero(whole != labels)[0])
+        raise InputError(f"{source}: label {labels[first]} of face {first}, expected a whole number")
+    per_face = _per_face(surface, whole, source)
+    names, codes = np.unique(per_face[per_face >= 0], return_inverse=True)
+    face = np.full(surface.n_faces, -1, np.int32)
+    face[per_face >= 0] = codes
+    if not len(names):
+        raise InputError(f"{source}: no face has a label, expected at least one that is not negative")
+    return Regions(face, tuple(str(name) for name in names))
+
+
+def _numbered(codes: NDArray[Any], names: tuple[str, ...]) -> Regions:
+    """Only the names that some face carries."""
+    used = np.unique(codes[codes >= 0])
+    new = np.full(len(names) + 1, -1, np.int32)
+    new[used] = np.arange(len(used))
+    return Regions(new[codes], tuple(names[i] for i in used))
+
+
+def _per_face(surface: Surface, labels: NDArray[Any], source: str) -> NDArray[Any]:
+    polygons = surface.file.polygons if surface.file is not None else surface.n_faces
+    if len(labels) == polygons:
+        return labels if surface.polygon is None else labels[surface.polygon]
+    if len(labels) == surface.n_faces:
+        return labels
+    expected = (
+        f"{polygons}" if polygons == surface.n_faces else f"{polygons} (polygons) or {surface.n_faces} (triangles)"
+    )
+    raise InputError(f"{source}: {len(labels)} labels, expected {expected}")
+
+
+def _offered(surface: Surface) -> str:
+    file = surface.file
+    known = [*file.polygon_labels, *file.polygon_properties] if file is not None else []
+    return f"it has {', '.join(known)}" if known else "it has no labels of its own"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
