@@ -1,0 +1,112 @@
+"""Curves on surfaces: the Darboux frame along a boundary, its geodesic and its normal curvature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..blocks import cross, dot, face_blocks, triangles
+from .boundary import Boundary
+from .frames import unit
+from .polygon import Floats, Mask
+from .turning import Turning
+
+# A vector area below this part of the area has lost its direction to rounding.
+_FLAT = 1e-12
+
+
+@dataclass(frozen=True)
+class Darboux:
+    """Darboux frames T, ν, η = T × ν along boundary curves, the surface on their left: η points out of it.
+
+    On every edge ν is the normal of its face; at every vertex it is the direction of the fan's area vector, made
+    perpendicular to the curve. A patch without an orientation has one along each of its boundary curves.
+    """
+
+    boundary: Boundary
+
+    @cached_property
+    def _turning(self) -> Turning:
+        return Turning(self.boundary.curves)
+
+    @cached_property
+    def kappa_g(self) -> Floats:
+        """(n,) π − Σθ of the fan at each vertex, a measure in radians, so that ΣK + Σκ_g = 2πχ; NaN at the ends of open
+        curves and where corners coincide."""
+        curves = self.boundary.curves
+        angle, _, _ = self._fans
+        return np.where(curves.inner, np.pi - angle, np.nan)
+
+    @cached_property
+    def nu(self) -> Floats:
+        """(3, n) unit normal ν of the face at the edge that leaves each vertex; NaN where the face has no area."""
+        return self._edge_frame[0]
+
+    @cached_property
+    def conormal(self) -> Floats:
+        """(3, n) η|e|, outward conormal of the edge that leaves each vertex times its length, in the surface's unit of
+        computation."""
+        return self._edge_frame[1]
+
+    @cached_property
+    def _edge_frame(self) -> tuple[Floats, Floats]:
+        boundary = self.boundary
+        surface, half_edge = boundary.surface, boundary.half_edge
+        t = triangles(surface.xyz, surface.faces[np.maximum(half_edge, 0) // 3])
+        edge = np.choose(half_edge % 3, np.array([t.u, t.v, [-x for x in t.w]])[:, :, :])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            normal = np.array(t.normal) / t.twice_area
+        normal[:, half_edge < 0] = np.nan
+        return normal * np.where(boundary.forward, 1.0, -1.0), np.array(cross(edge, normal))
+
+    @cached_property
+    def vertex_nu(self) -> Floats:
+        """(3, n) unit normal ν of the surface at each vertex, perpendicular to T there; NaN where there is none."""
+        curves = self.boundary.curves
+        _, area, vector = self._fans
+        # The area vector of a fan has the orientation of its star; along the curve that of the face at its edge counts.
+        beside = self.boundary.half_edge
+        sign = self.boundary.surface.corner_sign
+        star = 1 if sign is None else sign.ravel()[self.boundary._corner]
+        vector = vector * np.where(self.boundary.forward, star, -star)
+        vector = np.where(dot(vector, vector) > (_FLAT * area) ** 2, vector, np.nan)
+        tangent = unit(curves.tangent[:, curves.preceding] + curves.tangent)
+        tangent[:, self._turning.reversed | (beside < 0) | ~curves.inner] = np.nan
+        return unit(vector - tangent * dot(vector, tangent))
+
+    @cached_property
+    def kappa_n(self) -> Floats:
+        """(n,) normal curvature, −ν · 2 sin(ψ/2) N: a measure, positive where the surface is convex along the curve, as
+        κ₁ and κ₂ are; NaN where ν is."""
+        return 0.0 - dot(self.vertex_nu, self._turning.vector)
+
+    @cached_property
+    def _fans(self) -> tuple[Floats, Floats, Floats]:
+        """Σθ, Σ area and Σ area ν of the fan at each vertex of the curves, from the faces that touch the boundary."""
+        boundary = self.boundary
+        surface, fans = boundary.surface, boundary.fans
+        wanted, where = np.unique(boundary.fan, return_inverse=True)
+        place = np.full(fans.count, -1)
+        place[wanted] = np.arange(len(wanted))
+        at_boundary: Mask = surface.boundary
+        touching = np.flatnonzero(at_boundary[surface.faces].any(axis=1))
+        angle, area, vector = np.zeros(len(wanted)), np.zeros(len(wanted)), np.zeros((3, len(wanted)))
+        for block in face_blocks(len(touching)):
+            face = touching[block]
+            t = triangles(surface.xyz, surface.faces[face])
+            for k in range(3):
+                at = place[fans.of_corners(3 * face + k)]
+                here = at >= 0
+                at = at[here]
+                theta = np.arctan2(t.twice_area, t.cosines[k])
+                # A corner on top of another one of its face has no angle.
+                arms = ((t.u, t.w), (t.u, t.v), (t.v, t.w))[k]
+                theta[(dot(arms[0], arms[0]) == 0) | (dot(arms[1], arms[1]) == 0)] = np.nan
+                np.add.at(angle, at, theta[here])
+                np.add.at(area, at, t.twice_area[here])
+                sign = 1.0 if surface.corner_sign is None else surface.corner_sign[face[here], k]
+                for component, part in zip(vector, t.normal, strict=True):
+                    np.add.at(component, at, part[here] * sign)
+        return angle[where], area[where], vector[:, where]

@@ -1,0 +1,79 @@
+"""Plane curves: which curves lie in a plane, and how often they turn round in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..blocks import cross, dot
+from .polygon import EPSILON, Curves, Floats, Mask, Rows
+from .turning import Turning
+
+
+@dataclass(frozen=True)
+class PlaneCurves:
+    """Curves of E³ that lie in planes.
+
+    plane: (m,) whether the curve does, to the rounding of its coordinates. normal: (3, m) of the plane, its largest
+    component positive, NaN where the curve is straight or not plane. signed_total: (m,) the sum of the turning angles,
+    counterclockwise ones positive seen from the tip of the normal; NaN unless plane, closed, and nowhere turning back.
+    """
+
+    plane: Mask
+    normal: Floats
+    signed_total: Floats
+
+    @property
+    def turning_number(self) -> Floats:
+        """(m,) signed_total / 2π rounded to the integer that it is."""
+        return np.rint(self.signed_total / (2 * np.pi)) + 0.0
+
+
+def plane_curves(turning: Turning) -> PlaneCurves:
+    """Find the plane of each curve and its signed total curvature, an integer multiple of 2π.
+
+    The plane goes through the first point, the point farthest from it, and the point farthest from the line of both.
+    A curve is plane where no point is farther from it than 16 ε times its largest coordinate, which is what rounding
+    the points of a plane curve to doubles explains.
+    """
+    curves = turning.curves
+    size = curves.max(np.abs(curves.xyz).max(axis=0, initial=0.0))
+    power = np.frexp(np.where(np.isfinite(size), size, 1.0))[1]
+    scaled = np.ldexp(curves.xyz, -np.repeat(power, curves.sizes))
+    filled = curves.sizes > 0
+    origin = np.zeros((3, len(curves)))
+    origin[:, filled] = scaled[:, curves.start[:-1][filled]]
+    offset = scaled - np.repeat(origin, curves.sizes, axis=1)
+    far = _farthest(curves, offset, dot(offset, offset))
+    moment = np.array(cross(np.repeat(far, curves.sizes, axis=1), offset))
+    normal = _farthest(curves, moment, dot(moment, moment))
+    norm = np.sqrt(dot(normal, normal))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        normal = normal / norm
+    height = np.abs(dot(np.repeat(normal, curves.sizes, axis=1), offset))
+    # Where the normal is undefined all points lie on one line: plane, though in no particular plane.
+    plane = ~(curves.max(height) > 16 * EPSILON * np.ldexp(size, -power))
+    largest = np.take_along_axis(normal, np.abs(normal).argmax(axis=0)[None], axis=0)[0]
+    normal = np.where(plane, normal * np.where(largest < 0, -1.0, 1.0), np.nan)
+    return PlaneCurves(plane, normal, _signed_total(turning, plane, normal))
+
+
+def _farthest(curves: Curves, vectors: Floats, square: Floats) -> Floats:
+    """(3, m) on each curve the first of the vectors whose square is the largest."""
+    reached = np.flatnonzero(square == np.repeat(curves.max(square), curves.sizes))
+    found, first = np.unique(curves.label[reached], return_index=True)
+    chosen: Rows = reached[first]
+    result = np.zeros((3, len(curves)))
+    result[:, found] = vectors[:, chosen]
+    return result
+
+
+def _signed_total(turning: Turning, plane: Mask, normal: Floats) -> Floats:
+    curves = turning.curves
+    tangent = curves.tangent
+    bend = cross(tangent[:, curves.preceding], tangent)
+    side = dot(np.repeat(normal, curves.sizes, axis=1), bend)
+    total = curves.sum(np.where(side < 0, -turning.angle, turning.angle))
+    known = plane & curves.closed & ~np.isnan(normal[0]) & (curves.sum(turning.reversed) == 0)
+    return np.where(known, total, np.nan)

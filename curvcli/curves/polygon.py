@@ -1,0 +1,185 @@
+"""Curves: many polygons at once, open and closed, with their edges and tangents, in any dimension."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+EPSILON = float(np.finfo(np.float64).eps)
+
+
+class Curves:
+    """Polygonal curves one after the other, so that one sweep serves ten curves or a hundred thousand.
+
+    xyz: (d, n) positions of all vertices. start: (m + 1,) where each curve begins. closed: (m,).
+    Vertex i owns the edge that leaves it; the last vertex of an open curve owns none. What belongs to an edge stands in
+    the row of the vertex it leaves, NaN where there is none. Lengths are in the unit of xyz.
+    """
+
+    def __init__(self, xyz: Floats, start: Rows, closed: Mask) -> None:
+        self.xyz, self.start, self.closed = xyz, start, closed
+
+    def __len__(self) -> int:
+        return len(self.closed)
+
+    @property
+    def size(self) -> int:
+        """Number of vertices of all curves."""
+        return int(self.xyz.shape[1])
+
+    @property
+    def dimension(self) -> int:
+        """d, the dimension of space."""
+        return len(self.xyz)
+
+    @cached_property
+    def sizes(self) -> Rows:
+        """(m,) vertices of each curve."""
+        return np.diff(self.start)
+
+    @cached_property
+    def edges(self) -> Rows:
+        """(m,) edges of each curve."""
+        return np.where(self.closed, self.sizes, np.maximum(self.sizes - 1, 0))
+
+    @cached_property
+    def label(self) -> Rows:
+        """(n,) the curve of each vertex."""
+        return np.repeat(np.arange(len(self)), self.sizes)
+
+    @cached_property
+    def following(self) -> Rows:
+        """(n,) the vertex at the head of each vertex's edge; the vertex itself where there is no edge."""
+        after = np.arange(1, self.size + 1)
+        filled = self.sizes > 0
+        last = self.start[1:][filled] - 1
+        after[last] = np.where(self.closed[filled], self.start[:-1][filled], last)
+        return after
+
+    @cached_property
+    def preceding(self) -> Rows:
+        """(n,) the vertex before each one; the vertex itself at the beginning of an open curve."""
+        before = np.arange(-1, self.size - 1)
+        filled = self.sizes > 0
+        first = self.start[:-1][filled]
+        before[first] = np.where(self.closed[filled], self.start[1:][filled] - 1, first)
+        return before
+
+    @cached_property
+    def has_edge(self) -> Mask:
+        """(n,) whether an edge leaves the vertex: everywhere but at the end of open curves."""
+        mask = np.ones(self.size, bool)
+        mask[self.start[1:][~self.closed & (self.sizes > 0)] - 1] = False
+        return mask
+
+    @cached_property
+    def inner(self) -> Mask:
+        """(n,) vertices between two edges: all but the ends of open curves."""
+        mask = self.has_edge.copy()
+        mask[self.start[:-1][~self.closed & (self.sizes > 0)]] = False
+        return mask
+
+    @cached_property
+    def _edge(self) -> tuple[Floats, Floats]:
+        """Lengths (n,) and unit tangents (d, n) of the edges, at any scale: squares are taken near 1."""
+        vector = self.xyz[:, self.following] - self.xyz
+        power = np.frexp(np.abs(vector).max(axis=0, initial=0.0))[1]
+        vector = np.ldexp(vector, -power)
+        norm = np.sqrt((vector * vector).sum(axis=0))
+        length = np.where(self.has_edge, np.ldexp(norm, power), np.nan)
+        norm[norm == 0] = np.nan
+        return length, vector / norm
+
+    @property
+    def edge_length(self) -> Floats:
+        """(n,) length of the edge that leaves each vertex."""
+        return self._edge[0]
+
+    @property
+    def tangent(self) -> Floats:
+        """(d, n) unit tangent T of the edge that leaves each vertex; NaN where the edge has no length."""
+        return self._edge[1]
+
+    @cached_property
+    def length(self) -> Floats:
+        """(m,) length of each curve."""
+        return self.sum(self.edge_length)
+
+    @cached_property
+    def arc(self) -> Floats:
+        """(n,) arc length from the beginning of the curve to each vertex."""
+        return self.running(np.nan_to_num(self.edge_length))
+
+    # ------------------------------------------------------------------ sums along curves
+
+    def sum(self, values: NDArray[Any]) -> Floats:
+        """(m,) sums along each curve, pairwise; nulls (NaN) are left out."""
+        plain = np.asarray(values, np.float64)
+        plain = np.where(np.isnan(plain), 0.0, plain)
+        sums = np.zeros(len(self))
+        filled = self.sizes > 0
+        if filled.any():
+            sums[filled] = np.add.reduceat(plain, self.start[:-1][filled])
+        return sums
+
+    def max(self, values: Floats) -> Floats:
+        """(m,) the largest value along each curve; -inf on a curve without vertices."""
+        largest = np.full(len(self), -np.inf)
+        filled = self.sizes > 0
+        if filled.any():
+            largest[filled] = np.maximum.reduceat(values, self.start[:-1][filled])
+        return largest
+
+    def running(self, values: Floats) -> Floats:
+        """(n,) at each vertex the sum of the values at the vertices before it on its curve.
+
+        By doubling: as exact as a pairwise sum, and no curve's rounding reaches the next.
+        """
+        total = np.zeros(self.size)
+        position = np.arange(self.size) - np.repeat(self.start[:-1], self.sizes)
+        later = position > 0
+        total[1:][later[1:]] = values[:-1][later[1:]]
+        step, longest = 1, int(self.sizes.max(initial=0))
+        while step < longest:
+            total[step:] += np.where(position[step:] >= step, total[:-step], 0.0)
+            step *= 2
+        return total
+
+    # ------------------------------------------------------------------ repeated points
+
+    def distinct(self) -> tuple[Curves, Rows]:
+        """The same curves without edges of length 0, and the vertices that are left.
+
+        Of points that repeat one another the last stays: it is where the curve goes on.
+        """
+        keep = ~(self.edge_length == 0)
+        # A closed curve that never leaves its first point has no vertex left; an open one keeps its last.
+        if keep.all():
+            return self, np.arange(self.size)
+        kept = np.flatnonzero(keep)
+        start = np.concatenate([[0], np.cumsum(keep)])[self.start]
+        return Curves(self.xyz[:, kept], start, self.closed), kept
+
+
+def curves_of(points: ArrayLike, closed: bool) -> Curves:
+    """One curve from its points (n, d).
+
+    Errors: InputError for points that are not finite numbers of shape (n, d), n ≥ 1 and d ≥ 2.
+    """
+    given = np.asarray(points)
+    if given.ndim != 2 or given.shape[1] < 2 or not len(given) or given.dtype.kind not in "fiu":
+        raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (n, d)")
+    xyz = np.ascontiguousarray(given.T, np.float64)
+    bad = np.flatnonzero(~np.isfinite(xyz).all(axis=0))
+    if len(bad):
+        raise InputError("coordinates are not finite, expected finite numbers", place=f"point {bad[0]}")
+    return Curves(xyz, np.array([0, len(given)]), np.array([closed]))
