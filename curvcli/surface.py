@@ -30,8 +30,9 @@ from .topology import (
 if TYPE_CHECKING:
     from .loading.model import MeshFile
 
-# Extents between these powers of two are computed in the file's own unit; outside, squares of squares would overflow.
-_LARGEST_EXPONENT = 150
+# Extents between these powers of two are computed in the file's own unit; outside, the eighth power of an edge, which
+# the cross ratio's square needs, would leave the range of doubles at edges 2⁵³ times shorter than the extent.
+_LARGEST_EXPONENT = 60
 
 STATUS = ("interior", "boundary", "degenerate", "nonmanifold", "unreferenced")
 
