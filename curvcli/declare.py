@@ -45,6 +45,7 @@ class Quantity:
     odd is null on patches that have none. vector: (3, n). public: whether it is a column of the table.
     total: the key of its sum in the report. signed: whether 0 is the middle of its range. labels: what codes stand for.
     column: its name in the table of its element where that is not its own, which is unique among all elements.
+    partner: the quantity it changes places with under reversal, as the larger curvature does with the smaller.
     """
 
     name: str
@@ -65,6 +66,7 @@ class Quantity:
     labels: tuple[str, ...] = ()
     description: str = ""
     column: str = ""
+    partner: str = ""
 
     @property
     def stem(self) -> str:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..declare import Column, Flags, Quantity, curvature_pass
 from .star import null_where
 
-_SHARED = {
+_SHARED: dict[str, Any] = {
     "kind": "density",
     "length_exponent": -1,
     "parity": "odd",
@@ -20,8 +22,12 @@ _SHARED = {
 
 @curvature_pass(
     provides=(
-        Quantity("kappa_1", symbol="κ₁", formula="H/2 + √(H²/4 − K_density), H = h_signed", **_SHARED),  # type: ignore[arg-type]
-        Quantity("kappa_2", symbol="κ₂", formula="H/2 − √(H²/4 − K_density), H = h_signed", **_SHARED),  # type: ignore[arg-type]
+        Quantity(
+            "kappa_1", symbol="κ₁", formula="H/2 + √(H²/4 − K_density), H = h_signed", partner="kappa_2", **_SHARED
+        ),
+        Quantity(
+            "kappa_2", symbol="κ₂", formula="H/2 − √(H²/4 − K_density), H = h_signed", partner="kappa_1", **_SHARED
+        ),
         Quantity("kappa_clamped", kind="flag", public=False),
     )
 )
