@@ -13,7 +13,7 @@ from curvcli.cotangents import dirichlet
 from curvcli.pipeline import evaluate
 from curvcli.surface import Surface
 
-from .meshes import ZOO, Mesh, zoo
+from tests.meshes import ZOO, Mesh, zoo
 from .strategies import any_mesh
 
 
@@ -37,7 +37,7 @@ def test_check_never_fails(mesh: Mesh, scale: float, offset: float) -> None:
 
 def test_right_isosceles_triangle() -> None:
     """Cotangents 0, 1, 1; legs 2, hypotenuse √8."""
-    surface = Surface([[0.0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
+    surface = Surface(np.array([[0.0, 0, 0], [2, 0, 0], [0, 2, 0]]), [[0, 1, 2]])
     found = dirichlet(surface, surface.xyz)
     assert found.energy.tolist() == [2.0]
     assert found.gradient.T.tolist() == [[-1, -1, 0], [1, 0, 0], [0, 1, 0]]

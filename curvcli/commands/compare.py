@@ -1,0 +1,167 @@
+"""`curvcli compare`: two surfaces set against each other."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from . import options
+
+if TYPE_CHECKING:
+    from ..maps import SurfaceMap
+    from ..output.formats import Format, Kind
+
+_TABLES = ("vertices", "faces")
+
+
+@click.command("compare", short_help="Set two surfaces against each other: as a map on the same faces.")
+@click.argument("a", metavar="A")
+@click.argument("b", metavar="B")
+@click.option("--map", "as_map", is_flag=True, help="A → B as a map on the same faces: its energy and its distortion.")
+@click.option(
+    "-o",
+    "--output",
+    "outputs",
+    metavar="PATH",
+    multiple=True,
+    help="Write .csv .tsv .parquet .npz (vertex table) or .json (report); repeatable. `-` is stdout.",
+)
+@click.option(
+    "--table",
+    "tables",
+    metavar="KIND=PATH",
+    multiple=True,
+    help="Write a table, KIND faces (singular values, non-conformality) or vertices (harmonic residual); repeatable.",
+)
+@click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+@click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.nonconformality.")
+@click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
+@click.option(
+    "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
+)
+@options.weld
+@options.input_format
+@options.max_faces
+@options.max_bytes
+@options.force
+@options.talking
+def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
+    """With --map: the map that sends each vertex of A to the vertex of the same index of B, linear on faces.
+
+    Tells its Dirichlet energy, the area of its image, its non-conformality (0 for conformal maps), the
+    singular values σ₁ ≥ σ₂ ≥ 0 on every face, and how far it is from harmonic. A and B must have the
+    same faces. Exits with 1 when an identity fails.
+
+    \b
+      curvcli compare mesh.obj flattened.obj --map
+      curvcli compare mesh.obj flattened.obj --map --get totals.nonconformality
+      curvcli compare mesh.obj flattened.obj --map --table faces=distortion.csv
+    """
+    context = click.get_current_context()
+    if not as_map:
+        raise click.UsageError("say how to compare: --map takes A → B as a map on the same faces", context)
+    if settings["as_json"] + (settings["get"] is not None) > 1:
+        raise click.UsageError("--json and --get both want stdout; choose one", context)
+    if a == "-" == b:
+        raise click.UsageError("A and B cannot both be stdin; give one of them a path", context)
+    return compare_map(a, b, **settings)
+
+
+def compare_map(
+    a: str,
+    b: str,
+    *,
+    outputs: tuple[str, ...],
+    tables: tuple[str, ...],
+    as_json: bool,
+    get: str | None,
+    stream_format: str | None,
+    precision: str,
+    weld: str,
+    force: bool,
+    quiet: bool,
+    verbose: int,
+    **limits: Any,
+) -> int:
+    """A → B as a map: options are checked, both surfaces read, the map measured and told; the exit code."""
+    from ..output.atomic import Outputs
+    from ..output.tables import parse_precision
+
+    wanted = _wanted(outputs, tables, stream_format)
+    to_stdout = any(path == "-" for path, _, _ in wanted)
+    if to_stdout and (as_json or get is not None):
+        raise click.UsageError("-o - and --json or --get both want stdout; choose one", click.get_current_context())
+    parse_precision(precision)
+    welding = options.welding(weld)
+
+    # Outputs are checked before the first surface is read.
+    with Outputs([path for path, _, _ in wanted], force) as files:
+        found = _read(a, b, welding, quiet, limits)
+        for path, kind, suffix in wanted:
+            with files.open(path) as stream:
+                _write(stream, found, kind, suffix, precision)
+        _tell(found, as_json, get, quiet or to_stdout)
+    return 1 if any(check.status == "fail" for check in found.checks) else 0
+
+
+def _tell(found: SurfaceMap, as_json: bool, get: str | None, quiet: bool) -> None:
+    """What goes to stdout: the report, one value of it, or the summary."""
+    from ..report.lookup import look_up
+    from ..report.maps import build, show
+    from ..report.model import encode
+
+    if as_json:
+        sys.stdout.buffer.write(encode(build(found)))
+    elif get is not None:
+        click.echo(look_up(build(found), get))
+    elif not quiet:
+        show(found)
+
+
+def _wanted(outputs: tuple[str, ...], tables: tuple[str, ...], stream_format: str | None) -> list[tuple[str, str, str]]:
+    """Path, kind and suffix of every output: a table of `vertices` or `faces`, or the `report`."""
+    from ..output.formats import format_of
+
+    def named(path: str, *kinds: Kind) -> Format:
+        return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)
+
+    wanted = []
+    for path in outputs:
+        one = named(path, "table", "report")
+        wanted.append((path, "vertices" if one.kind == "table" else "report", one.suffix))
+    for text in tables:
+        name, equals, path = text.partition("=")
+        if name not in _TABLES or not equals:
+            problem = f"{text!r} is not KIND=PATH with KIND one of {', '.join(_TABLES)}"
+            raise click.BadParameter(problem, param_hint="--table")
+        wanted.append((path, name, named(path, "table").suffix))
+    return wanted
+
+
+def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]) -> SurfaceMap:
+    from ..loading.surfaces import load
+    from ..maps import SurfaceMap
+    from .progress import phase
+
+    surfaces = []
+    for path in (a, b):
+        with phase(f"reading {path}", quiet):
+            surfaces.append(load(sys.stdin.buffer if path == "-" else path, weld=weld, **limits))
+    with phase("computing", quiet):
+        found = SurfaceMap(*surfaces)
+        _ = found.checks
+    return found
+
+
+def _write(stream: Any, found: SurfaceMap, kind: str, suffix: str, precision: str) -> None:
+    from ..output.tables import write_table
+    from ..report.maps import build
+    from ..report.model import encode
+
+    if kind == "report":
+        stream.write(encode(build(found)))
+    else:
+        table = found.vertex_table() if kind == "vertices" else found.face_table()
+        write_table(stream, table, suffix, precision=precision)

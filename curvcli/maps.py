@@ -1,0 +1,215 @@
+"""Maps f: M → E³ that are linear on every face: what they stretch, how far they are from conformal and harmonic."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .blocks import EPSILON, dot
+from .checks.base import Check, CheckRule, Outcome, rounding
+from .cotangents import Dirichlet, dirichlet
+from .errors import InputError, Notice
+from .loading.surfaces import as_surface
+from .stretch import Stretch, stretch
+from .surface import Surface
+
+Floats = NDArray[np.float64]
+
+
+class SurfaceMap:
+    """The map f that sends each vertex of a surface M to the vertex of the same index of another, linear on faces.
+
+    source: M. image: a surface with the same faces in the same order, or the points f(p) as an array (V, 3). Both may
+    be anything that stands for a surface: a Surface, a path, a trimesh.Trimesh or (points, faces).
+    σ₁ ≥ σ₂ ≥ 0 are the singular values of f on a face; σ₂ has no sign, because a face in space has no side of its own.
+    Columns are in the files' units; null (NaN) on degenerate faces of M and at their corners.
+    Errors: InputError where the faces differ, with the first difference.
+    Source: Sullivan, Discrete surfaces; Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates.
+    """
+
+    def __init__(self, source: Any, image: Any) -> None:
+        self.source = as_surface(source)
+        self.image = _on_same_faces(self.source, image)
+
+    # ------------------------------------------------------------------ columns
+
+    @cached_property
+    def stretch(self) -> Stretch:
+        """The differential on every face."""
+        return stretch(self.source, self.image)
+
+    @cached_property
+    def _cotangent(self) -> Dirichlet:
+        return dirichlet(self.source, self.image.xyz)
+
+    def _ratio(self, values: Floats) -> Floats:
+        return self.source.in_file_unit(self.image.in_file_unit(values, 1), -1)
+
+    @property
+    def sigma_1(self) -> Floats:
+        """(F,) larger singular value: the most that f stretches a direction of the face."""
+        return self._ratio(self.stretch.sigma_1)
+
+    @property
+    def sigma_2(self) -> Floats:
+        """(F,) smaller singular value, without sign; 0 where f flattens the face."""
+        return self._ratio(self.stretch.sigma_2)
+
+    @property
+    def area(self) -> Floats:
+        """(F,) area of the face of M."""
+        return self.source.in_file_unit(self.stretch.area, 2)
+
+    @property
+    def image_area(self) -> Floats:
+        """(F,) area of its image, σ₁ σ₂ area."""
+        return self.image.in_file_unit(self.stretch.image_area, 2)
+
+    @property
+    def nonconformality(self) -> Floats:
+        """(F,) ½ (σ₁ − σ₂)² area ≥ 0: the energy of the face beyond the area of its image; 0 where f is conformal."""
+        return self.image.in_file_unit(self.stretch.nonconformality, 2)
+
+    @property
+    def energy(self) -> Floats:
+        """(F,) Dirichlet energy of f on the face, ¼ Σ cot θ |opposite edge of f|²."""
+        return self.image.in_file_unit(self._cotangent.energy, 2)
+
+    @cached_property
+    def _gradient(self) -> Floats:
+        null = ~self.source.referenced
+        null[self.source.faces[self._degenerate].ravel()] = True
+        return np.where(null, np.nan, self._cotangent.gradient)
+
+    @property
+    def gradient(self) -> Floats:
+        """(V, 3) ∇_p E(f) = ½ Σ (cot α + cot β)(f_p − f_q); on a boundary edge the one cotangent there is."""
+        return self.image.in_file_unit(self._gradient, 1).T
+
+    @property
+    def harmonic_residual(self) -> Floats:
+        """(V,) |∇_p E(f)|, 0 where f is discrete harmonic; null on the boundary, which a harmonic map holds fixed."""
+        residual = np.where(self.source.boundary, np.nan, np.sqrt(dot(self._gradient, self._gradient)))
+        return self.image.in_file_unit(residual, 1)
+
+    @cached_property
+    def _degenerate(self) -> NDArray[np.int64]:
+        return np.flatnonzero(np.isnan(self._cotangent.energy))
+
+    # ------------------------------------------------------------------ integrals
+
+    @cached_property
+    def totals(self) -> dict[str, float]:
+        """`dirichlet` E(f), `area` of M, `image_area`, `nonconformality` E(f) − area f(M) as a sum over faces."""
+        s = self.stretch
+        sums = {
+            "dirichlet": (self.image, self._cotangent.energy),
+            "area": (self.source, s.area),
+            "image_area": (self.image, s.image_area),
+            "nonconformality": (self.image, s.nonconformality),
+        }
+        # Summed before they are turned into the file's unit, where a single face may be out of range.
+        return {name: float(unit.in_file_unit(np.nansum(values), 2)) for name, (unit, values) in sums.items()}
+
+    @cached_property
+    def harmonic(self) -> tuple[float, int | None, float]:
+        """The largest residual, its vertex, and what rounding alone can make of it; NaN, None, NaN without one."""
+        residual = self.harmonic_residual
+        if np.isnan(residual).all():
+            return np.nan, None, np.nan
+        vertex = int(np.nanargmax(residual))
+        bound = (16 + self.source.corner_count[vertex]) * EPSILON * self._cotangent.gradient_terms[vertex]
+        return float(residual[vertex]), vertex, float(self.image.in_file_unit(np.array(bound), 1))
+
+    @cached_property
+    def checks(self) -> list[Check]:
+        """Two identities: both formulas of E(f) agree, and E(f) − area f(M) = Σ ½ (σ₁ − σ₂)² area."""
+        s, energy = self.stretch, float(np.nansum(self._cotangent.energy))
+        terms = float(np.sum(s.terms + self._cotangent.energy_terms))
+        return [
+            self._check(
+                "dirichlet_energy",
+                float(np.nansum(s.energy)),
+                energy,
+                terms,
+                "½ Σ |∇f|² area against ¼ Σ cot θ |opposite edge|²",
+            ),
+            self._check(
+                "nonconformality",
+                float(np.nansum(s.nonconformality)),
+                energy - float(s.image_area.sum()),
+                terms + float(s.image_area.sum()),
+                "Σ ½(σ₁ − σ₂)² area against E(f) − area f(M)",
+            ),
+        ]
+
+    def _check(self, name: str, value: float, expected: float, terms: float, detail: str) -> Check:
+        tolerance = rounding(self.source, np.array([terms]))
+        outcome = Outcome(np.array([value]), np.array([expected]), tolerance, length_exponent=2, detail=detail)
+        if len(self._degenerate):
+            some = f"{len(self._degenerate)} faces of the source are degenerate"
+            outcome.exclude(np.array([True]), f"{some}, the first is {self._degenerate[0]}")
+        return CheckRule(name, lambda *_: outcome, (), detail).run(self.image, self.image.whole, {})[0]
+
+    @cached_property
+    def notices(self) -> list[Notice]:
+        """Faces on which the map is undefined, and faces that it flattens."""
+        collapsed = np.flatnonzero(self.stretch.collapsed)
+        told = (
+            ("degenerate_source_faces", self._degenerate, "faces of the source have no area; f is undefined there"),
+            ("collapsed_faces", collapsed, "faces have an image without area"),
+        )
+        return [Notice(code, len(at), text, examples=tuple(at[:5].tolist())) for code, at, text in told if len(at)]
+
+    # ------------------------------------------------------------------ tables
+
+    def face_table(self) -> dict[str, NDArray[Any]]:
+        """One row per face: singular values, non-conformality, area and area of the image."""
+        names = ("sigma_1", "sigma_2", "nonconformality", "area", "image_area")
+        face = np.arange(self.source.n_faces, dtype=np.int32)
+        return {"face": face} | {name: getattr(self, name) for name in names}
+
+    def vertex_table(self) -> dict[str, NDArray[Any]]:
+        """One row per vertex: position in the source, gradient of the energy, harmonic residual."""
+        table: dict[str, NDArray[Any]] = {"vertex": np.arange(self.source.n_vertices, dtype=np.int32)}
+        table |= dict(zip("xyz", self.source.xyz_given, strict=True))
+        table |= {f"gradient_{axis}": values for axis, values in zip("xyz", self.gradient.T, strict=True)}
+        return table | {"harmonic_residual": self.harmonic_residual}
+
+
+def _on_same_faces(source: Surface, given: Any) -> Surface:
+    """The image as a surface, once its faces are known to be the source's."""
+    if isinstance(given, np.ndarray):
+        if given.shape != source.points.shape:
+            raise InputError(f"points of shape {given.shape}, expected {source.points.shape} as in the source")
+        return Surface(given, source.faces)
+    image = as_surface(given)
+    path = image.file.path if image.file else None
+    other = (source.file.path if source.file else None) or "the source"
+    hint = "a map needs the same vertices and faces in the same order"
+    for what, found, expected in (
+        ("vertices", image.n_vertices, source.n_vertices),
+        ("faces", image.n_faces, source.n_faces),
+    ):
+        if found != expected:
+            raise InputError(f"has {found} {what}, expected {expected} as in {other}", path=path, hint=hint)
+    differ = (image.faces != source.faces).any(axis=1)
+    if differ.any():
+        if _same_polygons(source, image):
+            # Polygons are cut by their shape; the map is linear on the triangles of its source.
+            return Surface(image.points, source.faces, polygon=source.polygon, file=image.file, notices=image.notices)
+        face = int(np.argmax(differ))
+        corners = [" ".join(map(str, surface.faces[face])) for surface in (image, source)]
+        problem = f"has corners {corners[0]}, expected {corners[1]} as in {other}"
+        raise InputError(problem, path=path, place=f"face {face}", hint=hint)
+    return image
+
+
+def _same_polygons(source: Surface, image: Surface) -> bool:
+    one, other = source.file, image.file
+    if one is None or other is None or one.sizes is None or other.sizes is None:
+        return False
+    return np.array_equal(one.sizes, other.sizes) and np.array_equal(one.corners, other.corners)

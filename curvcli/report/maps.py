@@ -1,0 +1,153 @@
+"""What is told of a map between two surfaces: as JSON and as a summary for the terminal."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from .._version import __version__
+from .model import CheckRow, Input, Remark
+
+if TYPE_CHECKING:
+    from ..maps import SurfaceMap
+    from ..surface import Surface
+
+_MARKS = {"pass": "[green]pass[/green]", "fail": "[bold red]FAIL[/bold red]", "not_applicable": "[dim]n/a[/dim]"}
+
+
+class Range(msgspec.Struct):
+    """Smallest and largest value of a column, null where it has none, and how many are null."""
+
+    min: float | None
+    max: float | None
+    nulls: int
+
+
+class Harmonic(msgspec.Struct):
+    """The largest |∇_p E(f)| off the boundary, its vertex, and what rounding alone can make of it there."""
+
+    residual_max: float | None
+    vertex: int | None
+    rounding: float | None
+
+
+class MapReport(msgspec.Struct):
+    """The report of `curvcli compare --map`; what is undefined is null."""
+
+    schema_version: int
+    curvcli: str
+    source: Input
+    image: Input
+    totals: dict[str, float | None]
+    sigma_1: Range
+    sigma_2: Range
+    nonconformality: Range
+    harmonic: Harmonic
+    checks: list[CheckRow]
+    warnings: list[Remark]
+
+
+def model(f: SurfaceMap) -> MapReport:
+    """The report of a map."""
+    residual, vertex, rounding = f.harmonic
+    notices = [*f.source.notices, *f.image.notices, *f.notices]
+    return MapReport(
+        schema_version=1,
+        curvcli=__version__,
+        source=_input(f.source),
+        image=_input(f.image),
+        totals={name: _plain(value) for name, value in f.totals.items()},
+        sigma_1=_range(f.sigma_1),
+        sigma_2=_range(f.sigma_2),
+        nonconformality=_range(f.nonconformality),
+        harmonic=Harmonic(_plain(residual), vertex, _plain(rounding)),
+        checks=[CheckRow(**vars(check)) for check in f.checks],
+        warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in notices],
+    )
+
+
+def build(f: SurfaceMap) -> dict[str, Any]:
+    """The report of a map as plain Python values."""
+    found: dict[str, Any] = msgspec.to_builtins(model(f))
+    return found
+
+
+def show(f: SurfaceMap) -> None:
+    """Print the summary of a map to stdout; rich where it is a terminal, plain text in a pipe."""
+    report = model(f)
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = max(console.width, 100)
+    names = (escape(side.path or "arrays in memory") for side in (report.source, report.image))
+    console.print(f"[bold]{' → '.join(names)}[/bold]  V {f.source.n_vertices:,}  F {f.source.n_faces:,}")
+    for remark in report.warnings:
+        console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}")
+    console.print(_quantities(report))
+    checks = _table("check", "status", "residual", "allowed", "detail")
+    for row in report.checks:
+        checks.add_row(
+            row.name, _MARKS[row.status], _text(row.residual, 2), _text(row.tolerance, 2), escape(row.detail)
+        )
+    console.print(checks)
+
+
+def _quantities(report: MapReport) -> Table:
+    table = _table("quantity", "value", "what it is")
+    totals, harmonic = report.totals, report.harmonic
+    for name, value, meaning in (
+        ("dirichlet", _text(totals["dirichlet"]), "E(f) = ½ Σ |∇f|² area"),
+        ("area", _text(totals["area"]), "area of the source"),
+        ("image_area", _text(totals["image_area"]), "area of the image"),
+        ("nonconformality", _text(totals["nonconformality"]), "E(f) − area f(M) = Σ ½ (σ₁ − σ₂)² area; 0 if conformal"),
+        ("sigma_1", _between(report.sigma_1), "larger singular value per face"),
+        ("sigma_2", _between(report.sigma_2), "smaller singular value per face, without sign"),
+        ("harmonic", _text(harmonic.residual_max), _where(harmonic)),
+    ):
+        table.add_row(name, value, meaning)
+    return table
+
+
+def _where(harmonic: Harmonic) -> str:
+    if harmonic.vertex is None:
+        return "max |∇_p E(f)|: no vertex off the boundary"
+    return f"max |∇_p E(f)|, at vertex {harmonic.vertex}; rounding explains {_text(harmonic.rounding, 2)}"
+
+
+def _input(surface: Surface) -> Input:
+    file = surface.file
+    polygons = file.polygons if file else surface.n_faces
+    if file is None:
+        return Input(None, None, None, surface.n_vertices, polygons)
+    return Input(file.path, file.sha256, file.format, surface.n_vertices, polygons)
+
+
+def _range(values: np.typing.NDArray[np.float64]) -> Range:
+    known = values[~np.isnan(values)]
+    nulls = len(values) - len(known)
+    return Range(float(known.min()), float(known.max()), nulls) if len(known) else Range(None, None, nulls)
+
+
+def _between(values: Range) -> str:
+    return f"{_text(values.min)} … {_text(values.max)}" + (f", {values.nulls:,} undefined" if values.nulls else "")
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _text(value: float | None, digits: int = 12) -> str:
+    return "undefined" if value is None else f"{value:.{digits}g}"
+
+
+def _table(*headers: str) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for header in headers:
+        table.add_column(header, overflow="fold")
+    return table

@@ -1,0 +1,149 @@
+"""`curvcli compare --map` as a user types it: what it prints, writes and refuses."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import polars as pl
+import pytest
+
+from curvcli.commands.main import main
+
+
+class Result(NamedTuple):
+    code: int
+    out: str
+    err: str
+
+
+Run = Callable[..., Result]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Run:
+    def call(*arguments: object) -> Result:
+        monkeypatch.setattr(sys, "argv", ["curvcli", *map(str, arguments)])
+        with pytest.raises(SystemExit) as stop:
+            main()
+        return Result(stop.value.code, *capfd.readouterr())  # type: ignore[arg-type]
+
+    return call
+
+
+@pytest.fixture
+def square(tmp_path: Path) -> Path:
+    """The unit square about its centre, in four triangles."""
+    path = tmp_path / "square.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n")
+    return path
+
+
+@pytest.fixture
+def stretched(square: Path) -> Path:
+    """The same, three times as long, with the centre out of place."""
+    path = square.with_name("stretched.obj")
+    path.write_text(
+        square.read_text().replace("v 1 ", "v 3 ").replace("v .5 .5 0", "v 1.5 .5 0").replace("1.5", "1.25")
+    )
+    return path
+
+
+def test_report(run: Run, square: Path, stretched: Path) -> None:
+    code, out, err = run("compare", square, stretched, "--map", "--json")
+    assert (code, err) == (0, "")
+    report = json.loads(out)
+    assert report["source"]["path"] == str(square)
+    assert report["image"]["vertices"] == 5
+    totals = report["totals"]
+    # Centre moved by -1/4: E = ½ (9 + 1) + ½ · 4 · (1/4)², each of the four cotangent sums at the centre being 2.
+    assert totals == {
+        "dirichlet": 5.125,
+        "area": 1.0,
+        "image_area": 3.0,
+        "nonconformality": pytest.approx(2.125, rel=1e-15),
+    }
+    assert report["harmonic"]["vertex"] == 4
+    assert report["harmonic"]["residual_max"] == 1.0
+    assert {check["name"]: check["status"] for check in report["checks"]} == {
+        "dirichlet_energy": "pass",
+        "nonconformality": "pass",
+    }
+
+
+def test_one_value(run: Run, square: Path, stretched: Path) -> None:
+    assert run("compare", square, stretched, "--map", "--get", "totals.area") == (0, "1.0\n", "")
+    assert run("compare", square, stretched, "--map", "--get", "checks.nonconformality.status")[1] == "pass\n"
+    code, out, err = run("compare", square, stretched, "--map", "--get", "totals.aera")
+    assert (code, out) == (2, "")
+    assert "expected one of area" in err
+
+
+def test_summary(run: Run, square: Path, stretched: Path) -> None:
+    code, out, err = run("compare", square, stretched, "--map")
+    assert (code, err) == (0, "")
+    for word in ("dirichlet", "5.125", "sigma_1", "nonconformality", "pass", "at vertex 4"):
+        assert word in out
+    assert run("compare", square, stretched, "--map", "-q") == (0, "", "")
+
+
+def test_tables(run: Run, square: Path, stretched: Path, tmp_path: Path) -> None:
+    vertices, faces, report = tmp_path / "v.csv", tmp_path / "f.parquet", tmp_path / "r.json"
+    written = run("compare", square, stretched, "--map", "-o", vertices, "--table", f"faces={faces}", "-o", report)
+    assert written.code == 0
+    frame = pl.read_csv(vertices)
+    assert frame.columns == [*("vertex", "x", "y", "z"), *(f"gradient_{x}" for x in "xyz"), "harmonic_residual"]
+    assert frame["harmonic_residual"].to_list() == [None, None, None, None, 1.0]
+    frame = pl.read_parquet(faces)
+    assert frame.columns == ["face", "sigma_1", "sigma_2", "nonconformality", "area", "image_area"]
+    # det = σ₁ σ₂ is the ratio of the areas.
+    np.testing.assert_allclose(frame["sigma_1"] * frame["sigma_2"], frame["image_area"] / frame["area"], rtol=1e-14)
+    assert frame["nonconformality"].sum() == pytest.approx(json.loads(report.read_text())["totals"]["nonconformality"])
+
+
+def test_table_on_stdout(run: Run, square: Path, stretched: Path) -> None:
+    code, out, _ = run("compare", square, stretched, "--map", "--table", "faces=-", "--format", "csv")
+    assert code == 0
+    assert len(out.splitlines()) == 5
+    assert run("compare", square, stretched, "--map", "-o", "-", "--format", "csv", "--json").code == 2
+
+
+def test_failing_identity_is_exit_1(run: Run, square: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from curvcli import maps
+
+    monkeypatch.setattr(maps, "rounding", lambda surface, terms: -terms)
+    code, out, _ = run("compare", square, square, "--map")
+    assert code == 1
+    assert "FAIL" in out
+
+
+def test_without_map_it_says_what_there_is(run: Run, square: Path) -> None:
+    code, out, err = run("compare", square, square)
+    assert (code, out) == (2, "")
+    assert "--map" in err
+    assert len(err.splitlines()) == 1
+
+
+def test_refused(run: Run, square: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.obj"
+    other.write_text(square.read_text().replace("f 3 4 5", "f 4 5 3"))
+    code, out, err = run("compare", square, other, "--map", "-o", tmp_path / "v.csv")
+    assert (code, out) == (3, "")
+    assert err == (
+        f"curvcli: {other}: face 2: has corners 3 4 2, expected 2 3 4 as in {square}; "
+        "a map needs the same vertices and faces in the same order\n"
+    )
+    assert not (tmp_path / "v.csv").exists()
+    assert run("compare", square, tmp_path / "missing.obj", "--map").code == 3
+    for wrong in ("faces", "edges=e.csv", "faces=f.ply", "faces="):
+        refused = run("compare", square, square, "--map", "--table", wrong)
+        assert (refused.code, refused.out, len(refused.err.splitlines())) == (2, "", 1)
+    assert run("compare", "-", "-", "--map").code == 2
+    square.with_name("v.csv").write_text("mine")
+    refused = run("compare", square, square, "--map", "-o", tmp_path / "v.csv")
+    assert refused.code == 4
+    assert (tmp_path / "v.csv").read_text() == "mine"
