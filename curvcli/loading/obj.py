@@ -55,7 +55,7 @@ def _read(lines: ObjLines, max_faces: int | None) -> MeshFile:
         notices.append(Notice("short_faces", len(short), message, hint, tuple(short[:5].tolist())))
         corners = corners[np.repeat(keep, sizes)]
         sizes = sizes[keep] if isinstance(sizes, np.ndarray) else 3
-    if not len(corners):
+    if not len(corners) and not is_l.any():
         raise InputError("no faces", hint="a surface needs `f` records with at least 3 corners each")
     before = np.concatenate(([0], np.cumsum(is_f))) if labels else np.empty(0, np.int64)
     return MeshFile(

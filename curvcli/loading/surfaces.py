@@ -39,6 +39,8 @@ def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
 
     try:
         faces, polygon, notices = triangulate(file)
+        if not len(faces) and file.polylines:
+            raise InputError("no faces, only `l` polylines", hint="`curvcli curves` measures polylines")
         return Surface(file.xyz.T, faces, orient=orient, polygon=polygon, file=file, notices=(*file.notices, *notices))
     except InputError as error:
         error.path = error.path or file.path
