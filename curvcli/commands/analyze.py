@@ -27,7 +27,19 @@ if TYPE_CHECKING:
     help="Write .csv .tsv .parquet .npz (table), .ply .obj (coloured mesh) or .json (report); repeatable. "
     "With several meshes, {stem} stands for each one's name. `-` is stdout.",
 )
+@click.option(
+    "--table",
+    "tables",
+    metavar="KIND=PATH",
+    multiple=True,
+    help="Write another table: edges, faces, loops, regions or components; repeatable.",
+)
 @options.passes
+@click.option(
+    "--regions",
+    metavar="FILE|groups|objects|materials|PROPERTY",
+    help="One label per face: every integral and every check is then reported per region too.",
+)
 @options.reading
 @click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")
@@ -76,6 +88,7 @@ class Run:
         get: str | None,
         *,
         outputs: tuple[str, ...],
+        tables: tuple[str, ...],
         passes: tuple[str, ...],
         weld: str,
         force: bool,
@@ -104,10 +117,16 @@ class Run:
         self.stream_format = stream_format
         self.appearance: Appearance = Appearance(color_by, cmap, value_range, precision)
         check_appearance(self.appearance, self.passes)
+        kinds = [table_option(table) for table in tables]
         self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
+        self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]
         for path in self.paths[0]:
             format_of(path, name=stream_format if path == "-" else None, kinds=("table", "mesh", "report"))
-        self.to_stdout = "-" in outputs
+        for kind, path in self.tables[0]:
+            format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
+            if kind == "regions" and conventions["regions"] is None:
+                raise UsageError("--table regions: there are none without --regions")
+        self.to_stdout = "-" in [*outputs, *(path for _, path in kinds)]
         if self.to_stdout and (as_json or get is not None):
             raise UsageError("-o - and --json or --get both want stdout; choose one")
 
@@ -118,10 +137,12 @@ class Run:
 
         codes, reports = [], []
         # Every output of every mesh is checked before the first mesh is read.
-        with Outputs([path for paths in self.paths for path in paths], self.force) as everything:
-            for mesh, paths in zip(self.meshes, self.paths, strict=True):
+        wanted = [path for paths in self.paths for path in paths]
+        wanted += [path for tables in self.tables for _, path in tables]
+        with Outputs(wanted, self.force) as everything:
+            for mesh, paths, tables in zip(self.meshes, self.paths, self.tables, strict=True):
                 try:
-                    analysis = self.one(mesh, paths, everything)
+                    analysis = self.one(mesh, paths, tables, everything)
                 except CurvcliError as error:
                     if len(self.meshes) == 1 or isinstance(error, UsageError):
                         raise
@@ -145,7 +166,7 @@ class Run:
             sys.stdout.buffer.write(encode(reports[0] if len(self.meshes) == 1 else reports))
         return worst(codes)
 
-    def one(self, mesh: str, paths: list[str], outputs: Any) -> Analysis:
+    def one(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Analysis:
         """Load, compute, write."""
         from ..analysis import analyze
         from ..loading.surfaces import load
@@ -160,9 +181,11 @@ class Run:
         with phase(f"checking {mesh}", self.quiet) as checking:
             _ = analysis.checks
         analysis.timings |= {"read": reading.seconds, "compute": computing.seconds, "check": checking.seconds}
-        if paths:
+        if paths or tables:
             with phase(f"writing {mesh}", self.quiet):
-                analysis.extra_notices += write_into(outputs, analysis, paths, self.appearance, self.stream_format)
+                analysis.extra_notices += write_into(
+                    outputs, analysis, paths, self.appearance, self.stream_format, tables
+                )
         return analysis
 
     def tell(self, analysis: Analysis) -> Any:
@@ -180,6 +203,19 @@ class Run:
 
             show(analysis, self.verbose)
         return None
+
+
+def table_option(text: str) -> tuple[str, str]:
+    """The kind and the path of --table KIND=PATH.
+
+    Errors: UsageError for an unknown kind, with those there are.
+    """
+    from ..tables import TABLES
+
+    kind, equals, path = text.partition("=")
+    if not equals or not path or kind not in TABLES:
+        raise UsageError(f"--table {text}: expected KIND=PATH with KIND one of {', '.join(TABLES)}")
+    return kind, path
 
 
 def expand(output: str, mesh: str, meshes: int) -> str:

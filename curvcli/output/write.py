@@ -11,7 +11,7 @@ import numpy as np
 
 from ..declare import Quantity, passes
 from ..errors import Notice, UsageError
-from ..tables import vertex_properties, vertex_table
+from ..tables import TABLES, vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import format_of
 
@@ -57,9 +57,19 @@ def write_into(
     paths: Iterable[str],
     appearance: Appearance,
     stream_format: str | None = None,
+    tables: Iterable[tuple[str, str]] = (),
 ) -> list[Notice]:
-    """Write the vertex table, mesh or report that each path's suffix names into outputs that are open already."""
+    """Write the vertex table, mesh or report that each path's suffix names into outputs that are open already.
+
+    tables: pairs of a kind (`edges`, `faces`, …) and a path.
+    """
     notices: list[Notice] = []
+    for kind_of_table, path in tables:
+        from .tables import write_table
+
+        with outputs.open(path) as stream:
+            suffix = format_of(path, name=stream_format if path == "-" else None, kinds=["table"]).suffix
+            write_table(stream, TABLES[kind_of_table](analysis), suffix, precision=appearance.precision)
     for path in paths:
         kind = format_of(path, name=stream_format if path == "-" else None)
         with outputs.open(path) as stream:

@@ -133,6 +133,7 @@ class Report(msgspec.Struct, omit_defaults=True):
     minimal: Minimal | msgspec.UnsetType
     normals: Normals | msgspec.UnsetType
     components: list[Piece]
+    loops: list[dict[str, str | int | bool | Value]]
     regions: list[Piece]
     columns: dict[str, ColumnStatistics]
     checks: list[CheckRow]
@@ -180,6 +181,7 @@ def model(analysis: Analysis) -> Report:
         minimal=whole.minimal,
         normals=whole.normals,
         components=pieces(analysis, surface.components),
+        loops=loops(analysis),
         regions=pieces(analysis.cut, analysis.cut_groups) if analysis.cut is not None else [],
         columns=_columns(analysis),
         checks=[CheckRow(**vars(check)) for check in analysis.checks],
@@ -202,6 +204,20 @@ def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
         )
         for group in range(groups.count)
     ]
+
+
+def loops(analysis: Analysis) -> list[dict[str, Any]]:
+    """One row per boundary loop, vectors as lists."""
+    from ..curves.loops import loop_table
+
+    columns = {
+        key: _plain(column) if column.dtype.kind == "f" else column.tolist()
+        for key, column in loop_table(analysis.surface).items()
+    }
+    for stem in ("vector_area", "force", "torque"):
+        axes = [columns.pop(f"{stem}_{axis}") for axis in "xyz"]
+        columns[stem] = [list(vector) for vector in zip(*axes, strict=True)]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
 def _extras(analysis: Analysis, groups: Groups) -> dict[str, Callable[[int], Any]]:

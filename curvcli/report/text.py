@@ -36,6 +36,8 @@ def show(analysis: Analysis, verbose: int = 0) -> None:
     if _proof(report):
         console.print(_proof(report))
     console.print(_totals(report))
+    if report.regions:
+        console.print(_regions(report))
     if report.columns:
         console.print(_columns(report))
     console.print(f"[dim]{_conventions(report)}[/dim]")
@@ -70,11 +72,13 @@ def _checks(rows: list[CheckRow], verbose: int) -> Table:
     table.add_column("detail", overflow="fold")
     listed = [row for row in rows if row.scope == "whole" or row.status == "fail" or verbose]
     for row in sorted(listed, key=lambda row: _ORDER[row.status]):
-        numbers = (_number(row.residual), _number(row.tolerance))
+        tested = row.status != "not_applicable"
+        numbers = (_number(row.residual), _number(row.tolerance)) if tested else ("", "")
         table.add_row(row.name, row.scope, _MARKS[row.status], *numbers, escape(row.detail))
     hidden = len(rows) - len(listed)
     if hidden:
-        table.add_row("[dim]…[/dim]", "components", _MARKS["pass"], "", "", f"[dim]{hidden:,} more, none failed[/dim]")
+        pieces = "regions" if any(row.scope.startswith("region") for row in rows) else "components"
+        table.add_row("[dim]…[/dim]", pieces, _MARKS["pass"], "", "", f"[dim]{hidden:,} more, none failed; -v[/dim]")
     return table
 
 
@@ -91,6 +95,23 @@ def _totals(report: Report) -> Table:
     for key, value in report.totals.items():
         table.add_row(key, _value(value))
     return table
+
+
+def _regions(report: Report) -> Table:
+    table = _table("region")
+    for header in ("faces", "χ", "area", "ΣK", "Σκ_g", "willmore"):
+        table.add_column(header, justify="right", no_wrap=True)
+    for region in report.regions[:20]:
+        topology = region.topology
+        totals = (_number(_scalar(region.totals.get(key)), 6) for key in ("area", "K", "kappa_g", "willmore"))
+        table.add_row(str(region.name), f"{topology.faces:,}", str(topology.euler_characteristic), *totals)
+    if len(report.regions) > 20:
+        table.add_row(f"[dim]… {len(report.regions) - 20:,} more: --table regions=PATH[/dim]")
+    return table
+
+
+def _scalar(value: Any) -> float | None:
+    return None if isinstance(value, list) else value
 
 
 def _columns(report: Report) -> Table:
