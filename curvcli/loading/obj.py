@@ -142,7 +142,8 @@ def _vertices(
         xyz[k] = _column(records, k)
     colours: dict[str, NDArray[np.generic]] = {}
     if np.any(np.asarray(sizes) >= 6):
-        skip = 3 + (np.asarray(sizes) >= 7)
+        some = np.asarray(sizes)
+        skip = np.where(some >= 6, 3 + (some >= 7), some)  # a record without colours has none of the columns asked for
         colours = {name: _column(records, skip + k) for k, name in enumerate(("red", "green", "blue"))}
     weighted = np.isin(sizes, (4, 7))
     if weighted.any():

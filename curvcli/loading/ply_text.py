@@ -11,7 +11,17 @@ from numpy.typing import NDArray
 from ..errors import InputError, Notice
 from .ply_header import Element, Header, Property
 from .ply_rows import Columns, empty_columns
-from .text import BLANK, NEWLINE, Untidy, drop_empty_lines, line_starts, plain_lines, read_columns, read_tokens, tidy
+from .text import (
+    NEWLINE,
+    Untidy,
+    drop_empty_lines,
+    line_starts,
+    plain_lines,
+    read_columns,
+    read_tokens,
+    separates,
+    tidy,
+)
 
 
 def read_text_rows(data: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
@@ -63,8 +73,8 @@ def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[n
             line += element.count
         else:
             content[element.name] = empty_columns(element)
-    if body[starts[line] :].strip():
-        count = len(starts) - 1 - line
+    if rest := body[starts[line] :].strip():
+        count = sum(1 for text in rest.split(b"\n") if text.strip())
         notices.append(Notice("trailing_data", count, "lines after the announced elements are ignored"))
     return content
 
@@ -104,7 +114,7 @@ def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
     """The columns of rows of any length."""
     numbers, known = read_tokens(rows.text, np.float64)
     text = np.frombuffer(rows.text, np.uint8)
-    separators = np.flatnonzero(text <= BLANK)
+    separators = np.flatnonzero(separates(text))
     ends = np.flatnonzero(text[separators] == NEWLINE) + 1
     if rows.numbers is None and (len(separators) != len(numbers) or not known.all()):
         raise Untidy

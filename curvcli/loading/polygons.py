@@ -6,8 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Notice
-from .ears import clip_ears
+from .ears import EFFORT_PER_CORNER, clip_ears
 from .model import MeshFile
+
+_RESERVE = 500_000_000
+"""What intricate polygons of one file may take beyond the usual effort (a few seconds)."""
 
 
 def triangulate(mesh: MeshFile) -> tuple[NDArray[np.int32], NDArray[np.int32] | None, tuple[Notice, ...]]:
@@ -36,10 +39,12 @@ def triangulate(mesh: MeshFile) -> tuple[NDArray[np.int32], NDArray[np.int32] | 
         faces[offset[which][:, None] + np.arange(size - 2)] = fan
         if size > 3:
             concave += which[~_is_convex(mesh.xyz[:, rows])].tolist()
-    crossed = []
+    crossed, reserve = [], _RESERVE
     for p in concave:
         corners = mesh.corners[begins[p] : ends[p]]
-        cut, simple = clip_ears(_in_plane(mesh.xyz[:, corners]))
+        usual = EFFORT_PER_CORNER * len(corners)
+        cut, simple, effort = clip_ears(_in_plane(mesh.xyz[:, corners]), usual + reserve)
+        reserve -= max(0, effort - usual)
         faces[offset[p] : offset[p] + triangles[p]] = corners[cut]
         if not simple:
             crossed.append(p)
@@ -53,7 +58,7 @@ def _notices(sizes: NDArray[np.int32], concave: int, crossed: list[int]) -> tupl
     message = f"polygons are triangulated, {concave} of them not convex"
     notices = [Notice("polygons_triangulated", len(many), message, None, tuple(many[:5].tolist()))]
     if crossed:
-        message = "polygons cross themselves or lie in no plane, so their triangles overlap"
+        message = "polygons cross themselves, lie in no plane or are too intricate, and their triangles may overlap"
         notices.append(Notice("polygons_not_simple", len(crossed), message, None, tuple(crossed[:5])))
     return tuple(notices)
 

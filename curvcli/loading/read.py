@@ -99,7 +99,8 @@ def _load(file_obj: BinaryIO, file_type: str, weld: str | float, max_faces: int 
 
     from .weld import welded
 
-    mesh = welded(_parse(file_obj.read(), file_type.removeprefix(_PREFIX), weld, max_faces), weld)
+    with np.errstate(invalid="ignore"):  # signalling NaNs; who uses a NaN refuses it
+        mesh = welded(_parse(file_obj.read(), file_type.removeprefix(_PREFIX), weld, max_faces), weld)
     # trimesh would turn corners into int64 and rows into columns; who wants a Trimesh builds it from the surface.
     nothing = np.empty((0, 3))
     return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": mesh}}

@@ -73,7 +73,7 @@ def tidy(data: bytes) -> bytes:
     for begin in range(0, len(text), _BLOCK):
         block, following = text[begin : begin + _BLOCK], text[begin + 1 : begin + _BLOCK + 1]
         keep = block != BLANK
-        keep[: len(following)] |= following > BLANK
+        keep[: len(following)] |= ~separates(following)
         block = block[keep]
         if not len(block):
             continue
@@ -92,6 +92,13 @@ def drop_empty_lines(data: bytes) -> tuple[bytes, NDArray[np.int64]]:
     ends = np.flatnonzero(empty)
     empty[1:] &= text[:-1] == NEWLINE
     return bytes(text[~empty]), np.flatnonzero(~empty[ends])
+
+
+def separates(text: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Where a token of a tidy text has ended."""
+    ends: NDArray[np.bool_] = text == BLANK
+    ends |= text == NEWLINE
+    return ends
 
 
 def line_starts(text: NDArray[np.uint8]) -> NDArray[np.int64]:
@@ -123,7 +130,12 @@ def read_columns(
     """
     text = np.frombuffer(data, np.uint8)
     rows = np.count_nonzero(text == NEWLINE)
-    if rows == 0 or np.count_nonzero(text == BLANK) != rows * (columns + skip - 1):
+    blanks = columns + skip - 1
+    if (
+        rows == 0
+        or np.count_nonzero(text == BLANK) != rows * blanks
+        or data.count(b" ", 0, data.index(b"\n")) != blanks
+    ):
         return None
     if len(data) <= SMALL:
         numbers, known = read_tokens(data, dtype)
@@ -155,16 +167,15 @@ def read_records(data: bytes, dtype: type[np.generic]) -> Records:
     text = np.frombuffer(data, np.uint8)
     rows = np.count_nonzero(text == NEWLINE)
     if len(words) != rows:
-        separators = np.flatnonzero(text <= BLANK)
+        separators = np.flatnonzero(separates(text))
         if len(numbers) != len(separators):
             raise Untidy
         firsts = np.concatenate(([0], np.flatnonzero(text[separators] == NEWLINE)[:-1] + 1))
         known[firsts] = True
         wrong = np.flatnonzero(~known)
         begin = separators[wrong[0] - 1] + 1
-        raise Untidy(
-            int(np.searchsorted(firsts, wrong[0], side="right")) - 1, data[begin : begin + 40].split(maxsplit=1)[0]
-        )
+        row = int(np.searchsorted(firsts, wrong[0], side="right")) - 1
+        raise Untidy(row, bytes(data[begin : separators[wrong[0]]][:40]))
     return Records(np.diff(words, append=len(known)) - 1, values=numbers[known])
 
 
@@ -190,7 +201,7 @@ _INTEGER = re.compile(rb"[+-]?\d{1,10}")
 
 
 def _read_tokens_slowly(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
-    tokens = data.split()
+    tokens = data[:-1].translate(_TOKEN_PER_LINE).split(b"\n")
     numbers = np.zeros(len(tokens), dtype)
     known = np.zeros(len(tokens), np.bool_)
     pattern, convert = (_NUMBER, float) if dtype is np.float64 else (_INTEGER, int)

@@ -1,0 +1,154 @@
+"""STL files, binary and ASCII, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from curvcli.errors import InputError
+from curvcli.loading import text
+from curvcli.loading.stl import parse_stl
+from tests.loading.spelling import ascii_stl, binary_stl
+
+TETRAHEDRON = np.array(
+    [
+        [[0, 0, 0], [0, 1, 0], [1, 0, 0]],
+        [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
+        [[0, 0, 0], [0, 0, 1], [0, 1, 0]],
+        [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+    ],
+    float,
+)
+CORNERS = [0, 1, 2, 0, 2, 3, 0, 3, 1, 3, 2, 1]
+
+singles = arrays(
+    np.float32,
+    st.tuples(st.integers(1, 12), st.just(3), st.just(3)),
+    elements=st.one_of(st.sampled_from([0.0, -0.0, 1.0]), st.floats(width=32, allow_nan=False, allow_infinity=False)),
+)
+
+
+def codes(data: bytes) -> dict[str, int]:
+    return {notice.code: notice.count for notice in parse_stl(data).notices}
+
+
+def refused(data: bytes) -> str:
+    with pytest.raises(InputError) as error:
+        parse_stl(data)
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+@given(singles, st.booleans())
+def test_binary_positions_are_exactly_those_of_the_file(corners: np.ndarray, weld: bool) -> None:
+    mesh = parse_stl(binary_stl(corners), weld=weld)
+    np.testing.assert_array_equal(mesh.xyz[:, mesh.corners].T, corners.reshape(-1, 3).astype(float))
+    distinct = list(dict.fromkeys(map(tuple, (corners.reshape(-1, 3) + np.float32(0)).tolist())))
+    assert mesh.xyz.shape[1] == (len(distinct) if weld else corners.size // 3)
+    if weld:
+        assert list(map(tuple, mesh.xyz.T.tolist())) == distinct
+
+
+@given(singles, st.sampled_from(["\n", "\r\n", "\r"]), st.booleans(), st.sampled_from(["", "  ", "\t"]), st.booleans())
+def test_ascii_says_the_same_as_binary(corners: np.ndarray, end: str, upper: bool, indent: str, large: bool) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        if large:
+            patch.setattr(text, "SMALL", -1)
+        mesh = parse_stl(ascii_stl(corners, end=end, upper=upper, indent=indent))
+    twin = parse_stl(binary_stl(corners))
+    np.testing.assert_array_equal(mesh.xyz, twin.xyz)
+    np.testing.assert_array_equal(mesh.corners, twin.corners)
+
+
+def test_ascii_numbers_are_doubles() -> None:
+    assert parse_stl(ascii_stl(TETRAHEDRON * 0.1)).xyz.max() == 0.1
+
+
+def test_rows_come_in_order_of_first_appearance() -> None:
+    assert parse_stl(binary_stl(TETRAHEDRON)).corners.tolist() == CORNERS
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e-30, 1.0, 1e9])
+def test_welding_knows_no_scale(scale: float) -> None:
+    for data in (binary_stl(TETRAHEDRON * scale), ascii_stl(TETRAHEDRON * scale)):
+        assert parse_stl(data).corners.tolist() == CORNERS
+        assert parse_stl(data, weld=False).corners.tolist() == list(range(12))
+
+
+def test_a_binary_file_may_begin_with_solid() -> None:
+    assert parse_stl(binary_stl(TETRAHEDRON, b"solid facet outer loop")).corners.tolist() == CORNERS
+    assert parse_stl(binary_stl(TETRAHEDRON, b"\xff\xfe\x80 solid", 0xBEEF)).corners.tolist() == CORNERS
+
+
+def test_all_on_one_line() -> None:
+    data = b" ".join(ascii_stl(TETRAHEDRON).replace(b"made for a test", b"name").split())
+    assert parse_stl(data).corners.tolist() == CORNERS
+    by_facet = ascii_stl(TETRAHEDRON).replace(b"\n      vertex", b" vertex").replace(b"\n    endloop", b" endloop")
+    assert parse_stl(by_facet).corners.tolist() == CORNERS
+
+
+def test_a_keyword_in_the_name_of_the_solid() -> None:
+    data = ascii_stl(TETRAHEDRON).replace(b"made for a test", b"my facet vertex endloop")
+    assert parse_stl(data).corners.tolist() == CORNERS
+
+
+def test_what_is_counted() -> None:
+    assert codes(ascii_stl(TETRAHEDRON)) == {}
+    assert codes(ascii_stl(TETRAHEDRON, last=False)) == {"missing_endsolid": 1}
+    assert codes(ascii_stl(TETRAHEDRON[:2]) + b"\n" + ascii_stl(TETRAHEDRON[2:])) == {"several_solids": 2}
+    assert codes(ascii_stl(TETRAHEDRON).replace(b"  endfacet", b"  colour 1 0 0\n  endfacet")) == {
+        "unknown_statements": 4
+    }
+    assert codes(binary_stl(TETRAHEDRON) + b"1234567") == {"trailing_data": 7}
+
+
+class TestRefused:
+    def test_binary_shorter_than_announced(self) -> None:
+        data = binary_stl(TETRAHEDRON)
+        assert refused(data[:-1]) == "byte 80: 4 facets announced, room for 3 found: 1 bytes are missing"
+        for end in range(len(data)):
+            assert refused(data[:end])
+
+    def test_a_huge_counter(self) -> None:
+        data = binary_stl(TETRAHEDRON)
+        assert refused(data[:80] + b"\xff\xff\xff\xff" + data[84:]).startswith("byte 80: 4294967295 facets announced")
+
+    def test_neither_text_nor_binary(self) -> None:
+        assert "begins with `solid`" in refused(binary_stl(TETRAHEDRON, b"solid") + b"!")
+
+    def test_wrong_numbers_of_vertices(self) -> None:
+        lines = ascii_stl(TETRAHEDRON).splitlines(keepends=True)
+        assert refused(b"".join(lines[:11] + lines[12:])) == "line 9: facet with 2 vertices found, 3 expected"
+        assert refused(b"".join(lines[:4] + lines[3:])) == "line 2: facet with 4 vertices found, 3 expected"
+        assert refused(b"".join(lines[:1] + lines[3:4] + lines[1:])) == "line 2: vertex outside a facet found"
+
+    def test_cut_off_inside_a_facet(self) -> None:
+        lines = ascii_stl(TETRAHEDRON).splitlines(keepends=True)
+        assert refused(b"".join(lines[:6])).startswith("line 6: the data end inside a facet")
+        assert refused(b"".join(lines[:5])) == "line 2: facet with 2 vertices found, 3 expected"
+
+    @pytest.mark.parametrize(
+        ("old", "new", "message"),
+        [
+            (b"vertex 0.0 0.0 0.0", b"vertex 0.0 0.0", "line 4: vertex with 2 numbers found, 3 expected"),
+            (b"vertex 0.0 0.0 0.0", b"vertex 0.0 0.0 0.0 1", "line 4: vertex with 4 numbers found, 3 expected"),
+            (b"vertex 0.0 0.0 0.0", b"vertex 0.0 0,0 0.0", "line 4: `0,0` found, a number expected"),
+        ],
+    )
+    @pytest.mark.parametrize("small", [-1, 1 << 16])
+    def test_vertices(self, old: bytes, new: bytes, message: str, small: int, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setattr(text, "SMALL", small)
+        assert refused(ascii_stl(TETRAHEDRON).replace(old, new, 1)) == message
+
+    def test_nothing_to_compute(self) -> None:
+        assert refused(b"solid empty\nendsolid empty\n").startswith("no faces")
+        assert refused(binary_stl(TETRAHEDRON[:0])).startswith("no faces")
+        assert refused(b"").startswith("0 bytes found")
+
+    def test_more_faces_than_allowed(self) -> None:
+        for data in (binary_stl(TETRAHEDRON), ascii_stl(TETRAHEDRON)):
+            with pytest.raises(InputError, match="4 faces found, at most 3 allowed"):
+                parse_stl(data, max_faces=3)
