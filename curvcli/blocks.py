@@ -25,6 +25,9 @@ Vector = Sequence[Floats] | Floats
 FACES_PER_BLOCK = 16384
 EPSILON = float(np.finfo(np.float64).eps)
 
+# Stars of more faces have their angles added in pairs.
+LARGE_STAR = 32
+
 # Below this ratio of twice the area to the longest edge squared, the cross product is worth its compensated form.
 _THIN = 1 / 16
 
@@ -160,7 +163,28 @@ def star_sums(surface: Surface) -> StarSums:
             np.add.at(gradient[k], face[0], at_0[k])
             np.add.at(gradient[k], face[1], -at_0[k] - at_2[k])
             np.add.at(gradient[k], face[2], at_2[k])
+    _resum_large_stars(surface, angle)
     return StarSums(angle, area, vector, gradient, face_area, degenerate, coincident)
+
+
+def _resum_large_stars(surface: Surface, angle: Floats) -> None:
+    """Add the angles of large stars again in pairs: one after the other, thousands would cost K its last digits."""
+    large = surface.corner_count > LARGE_STAR
+    if not large.any():
+        return
+    chosen = np.flatnonzero(large[surface.faces].any(axis=1))
+    vertices, angles = [], []
+    for block in face_blocks(len(chosen)):
+        face = surface.faces[chosen[block]]
+        t = triangles(surface.xyz, face)
+        for corner, cosine in zip(face.T, t.cosines, strict=True):
+            kept = large[corner]
+            vertices.append(corner[kept])
+            angles.append(np.arctan2(t.twice_area[kept], cosine[kept]))
+    vertex, each = np.concatenate(vertices), np.concatenate(angles)
+    order = np.argsort(vertex, kind="stable")
+    start = np.flatnonzero(np.diff(vertex[order], prepend=-1))
+    angle[vertex[order[start]]] = np.add.reduceat(each[order], start)
 
 
 def _mark_coincident(coincident: Mask, face: Index, t: Triangles) -> None:
