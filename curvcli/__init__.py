@@ -27,7 +27,7 @@ _HOME = {"Analysis": "analysis", "Surface": "surface", "analyze": "analysis", "l
 
 def __getattr__(name: str) -> Any:
     if name == "passes":
-        import_module(".curvatures", __name__)
+        import_module(".pipeline", __name__).load_passes()
         return import_module(".declare", __name__).passes
     if name in _HOME:
         return getattr(import_module(f".{_HOME[name]}", __name__), name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Set
 from difflib import get_close_matches
+from functools import cache
 from graphlib import TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
@@ -122,6 +123,19 @@ def presented(quantity: Quantity, array: Array, surface: Surface, mean: str = "s
     return array.T if quantity.vector else array
 
 
+@cache
 def load_passes() -> None:
-    """Import the built-in passes and the plug-ins of entry-point group `curvcli.passes`, once."""
+    """Import the built-in passes and the plug-ins of the entry-point group `curvcli.passes`, once.
+
+    Errors: UsageError for a plug-in that cannot be imported or whose declaration does not fit.
+    """
+    from importlib.metadata import entry_points
+
     from . import curvatures  # noqa: F401  (importing registers)
+
+    for plug_in in entry_points(group="curvcli.passes"):
+        try:
+            plug_in.load()
+        except Exception as error:
+            where = f"plug-in {plug_in.name} ({plug_in.value})"
+            raise UsageError(f"{where} cannot be loaded: {type(error).__name__}: {error}") from error
