@@ -8,11 +8,16 @@ import click
 @click.command("passes", short_help="List every quantity, or explain one.")
 @click.argument("name", required=False)
 @click.option("--json", "as_json", is_flag=True, help="As JSON.")
-def command(name: str | None, as_json: bool) -> None:
+@click.option("--markdown", is_flag=True, help="The documentation page of all quantities.")
+def command(name: str | None, as_json: bool, markdown: bool) -> None:
     """Every quantity with its symbol, formula, kind and unit; with NAME, all that is known about one."""
     from ..report.quantities import describe, listing
 
-    if as_json:
+    if markdown:
+        from ..report.quantities import page
+
+        click.echo(page(), nl=False)
+    elif as_json:
         from ..report.model import encode
         from ..report.quantities import as_data
 

@@ -15,6 +15,7 @@ from ..declare import passes
 from ..groups import Groups
 from ..surface import Surface
 from ..totals import competing_normals, constant_mean_curvature, steiner
+from .quantities import public
 from .statistics import ColumnStatistics, statistics
 
 if TYPE_CHECKING:
@@ -154,8 +155,21 @@ def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
 
 def schema() -> bytes:
     """The JSON Schema of the report."""
-    described = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
-    return encode(described)
+    found = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
+    properties = found["$defs"]["Report"]["properties"]
+    quantities = [quantity for quantity in public() if quantity.on == "vertex" and quantity.kind != "label"]
+    properties["columns"]["properties"] = {
+        column: {"$ref": "#/$defs/ColumnStatistics", "description": f"{quantity.description} {quantity.formula}"}
+        for quantity in quantities
+        for column in quantity.columns
+    }
+    for piece in (found["$defs"]["Report"], found["$defs"]["Piece"]):
+        piece["properties"]["totals"]["properties"] = {
+            quantity.total: {"description": f"Σ {quantity.name}: {quantity.description}"}
+            for quantity in passes.quantities(public=False)
+            if quantity.total
+        }
+    return encode(found)
 
 
 def model(analysis: Analysis) -> Report:

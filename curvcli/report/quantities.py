@@ -109,3 +109,28 @@ def describe(name: str) -> None:
         if value:
             table.add_row(label, value.replace("[", r"\["))
     Console(highlight=False).print(table)
+
+
+def page() -> str:
+    """The documentation page of all quantities, in Markdown."""
+    parts = [
+        "# Quantities\n",
+        "Made by `curvcli passes --markdown`. H = κ₁ + κ₂, positive where the surface is convex seen from the side its "
+        "normal points to. A measure is integrated over the star of a vertex; a density is per area.\n",
+    ]
+    for quantity in public():
+        shown = facts(quantity)
+        parts.append(f"## `{quantity.name}` {shown['symbol']}\n")
+        parts.append(f"{shown['description']}\n")
+        rows = [
+            ("formula", shown["formula"]),
+            ("element, kind, unit", f"{shown['on']}, {shown['kind']}, {shown['unit']}"),
+            ("boundary", shown["boundary"]),
+            ("preserves", shown["preserves"]),
+            ("sum", f"`{shown['total']}`" if shown["total"] else ""),
+            ("preset", shown["preset"]),
+            ("source", shown["source"]),
+            ("needs", ", ".join(shown["needs"])),
+        ]
+        parts.append("\n".join(f"* {label}: {value}" for label, value in rows if value) + "\n")
+    return "\n".join(parts)
