@@ -1,0 +1,193 @@
+"""Checks that can fail do: one wrong value, one flipped, missing or doubled face, one NaN — each is reported."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import curvcli
+from curvcli.checks import Check, rules
+from curvcli.errors import InputError
+from curvcli.pipeline import evaluate
+from curvcli.surface import Surface
+from tests import meshes
+from tests.meshes import Mesh
+
+Columns = dict[str, NDArray[Any]]
+
+# Which check notices one disturbed value of a column; vectors are disturbed in each component.
+GUARDS = {
+    "K": "gauss_bonnet",
+    "kappa_g": "gauss_bonnet",
+    "K_comb": "gauss_bonnet_combinatorial",
+    "A_vec": "vector_area",
+    "H_vec": "force_balance",
+    "area_gradient": "area_gradient",
+    "face_area": "area_gradient",
+}
+
+
+def columns(surface: Surface) -> Columns:
+    wanted = {need for rule in rules.values() for need in rule.needs}
+    return evaluate(surface, wanted)
+
+
+def run(name: str, surface: Surface, found: Columns) -> list[Check]:
+    groups = [surface.whole, *([surface.components] if surface.components.count > 1 else [])]
+    return [check for group in groups for check in rules[name].run(surface, group, found)]
+
+
+def disturbed(found: Columns, column: str, element: int, component: int | None, surface: Surface) -> Columns:
+    """The columns with one value off by a millionth of the size of its column."""
+    values = found[column].copy()
+    size = np.nanmax(np.abs(values)) or 1.0
+    where = element if component is None else (component, element)
+    assert not np.isnan(values[where])
+    values[where] += 1e-6 * size
+    return found | {column: values}
+
+
+def places(found: Columns, column: str, many: int = 12) -> list[tuple[int, int | None]]:
+    """Some elements where the column is defined, and each of its components."""
+    values = found[column]
+    defined = np.flatnonzero(~np.isnan(values).reshape(-1, values.shape[-1]).any(axis=0))
+    each: list[int | None] = [None] if values.ndim == 1 else [0, 1, 2]
+    return [(int(element), k) for element in defined[:: max(1, len(defined) // many)] for k in each]
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "cap", "grid", "torus", "two_bodies"])
+@pytest.mark.parametrize("column", GUARDS)
+def test_one_disturbed_value_is_noticed(column: str, name: str) -> None:
+    guard = GUARDS[column]
+    if guard not in rules:
+        pytest.skip(f"the check {guard} is not there yet")
+    surface = meshes.zoo(name).surface()
+    found = columns(surface)
+    assert [check.status for check in run(guard, surface, found)].count("pass") >= 1
+    for element, component in places(found, column):
+        after = run(guard, surface, disturbed(found, column, element, component, surface))
+        assert any(check.status == "fail" for check in after if check.scope == "whole"), (element, component)
+        if surface.components.count > 1:
+            assert [check.status for check in after].count("fail") == 2
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "torus"])
+def test_the_volume_notices_a_disturbed_vector_area(name: str) -> None:
+    """Along the vertex as seen from the base point, which is all that the volume sees."""
+    surface = meshes.zoo(name).surface()
+    found = columns(surface)
+    arm = surface.xyz - surface.base[:, None]
+    for element in np.flatnonzero(np.abs(arm).sum(axis=0))[::5]:
+        values = found["A_vec"].copy()
+        values[:, element] += 1e-6 * arm[:, element]
+        (check,) = run("volume", surface, found | {"A_vec": values})
+        assert check.status == "fail"
+
+
+def test_every_public_integral_is_guarded_by_a_check() -> None:
+    """A column whose sum is an identity's side is named in the needs of some check."""
+    from curvcli.declare import passes
+
+    needed = {need for rule in rules.values() for need in rule.needs}
+    assert {q.name for q in passes.quantities() if q.name in GUARDS} <= needed
+
+
+@pytest.mark.parametrize("column", ["K", "H_vec", "A_vec", "area_gradient"])
+def test_an_undefined_value_is_not_passed_over(column: str) -> None:
+    """A null in a term leaves nothing to test: not applicable, with the place, and never pass."""
+    surface = meshes.zoo("ellipsoid").surface()
+    found = columns(surface)
+    values = found[column].copy()
+    values[..., 7] = np.nan
+    for check in run(GUARDS[column], surface, found | {column: values}):
+        assert check.status == "not_applicable"
+        assert "vertex 7" in check.detail
+
+
+def test_an_infinite_value_fails() -> None:
+    surface = meshes.zoo("ellipsoid").surface()
+    found = columns(surface)
+    values = found["K"].copy()
+    values[3] = np.inf
+    (check,) = run("gauss_bonnet", surface, found | {"K": values})
+    assert check.status == "fail"
+    assert (check.value, check.residual) == (None, None)
+
+
+def warned(given: Mesh) -> dict[str, int]:
+    result = curvcli.analyze(given.surface(), "all")
+    assert result.passed
+    return {notice.code: notice.count for notice in result.notices}
+
+
+@pytest.mark.parametrize("face", [0, 1, 30, 75])
+def test_one_flipped_face(face: int) -> None:
+    """Three edges disagree; curvatures are those of the mesh as it was, up to the side it is seen from."""
+    body = meshes.zoo("ellipsoid")
+    faces = body.faces.copy()
+    faces[face] = faces[face][::-1]
+    flipped = body.with_faces(faces)
+    assert warned(flipped)["inconsistent_winding"] == 3
+    result, plain = curvcli.analyze(flipped.surface()), curvcli.analyze(body.surface())
+    assert not result.report()["topology"]["consistent_winding"]
+    np.testing.assert_allclose(result.vertices["K"], plain.vertices["K"], rtol=0, atol=5e-14)
+    # The first face decides: flipped itself, it turns the whole surface.
+    side = -1 if face == 0 else 1
+    np.testing.assert_allclose(result.vertices["h_signed"], side * plain.vertices["h_signed"], rtol=1e-11)
+    assert ("inside_out" in warned(flipped)) == (face == 0)
+
+
+def test_a_missing_face() -> None:
+    body = meshes.zoo("ellipsoid")
+    result = curvcli.analyze(body.with_faces(body.faces[1:]).surface(), "all")
+    found = result.report()["topology"]
+    assert (found["closed"], found["boundary_edges"], found["boundary_loops"]) == (False, 3, 1)
+    assert found["euler_characteristic"] == 1
+    assert result.vertices["status"].tolist().count("boundary") == 3
+    assert result.totals["volume"] is None
+    status = {check.name: check.status for check in result.checks}
+    assert status["volume"] == "not_applicable"
+    assert status["gauss_bonnet"] == "pass"
+
+
+@pytest.mark.parametrize("turn", [[0, 1, 2], [1, 2, 0], [2, 1, 0]])
+def test_a_doubled_face(turn: list[int]) -> None:
+    body = meshes.zoo("ellipsoid")
+    again = body.with_faces(np.vstack([body.faces, body.faces[5][turn]]))
+    found = warned(again)
+    assert (found["duplicate_faces"], found["nonmanifold_edges"]) == (1, 3)
+    (notice,) = [n for n in curvcli.analyze(again.surface()).notices if n.code == "duplicate_faces"]
+    assert notice.examples == (len(body.faces),)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_a_coordinate_that_is_no_number(value: float) -> None:
+    body = meshes.zoo("ellipsoid")
+    points = body.points.copy()
+    points[11, 2] = value
+    with pytest.raises(InputError, match="vertex 11") as raised:
+        curvcli.analyze((points, body.faces))
+    assert "not finite" in str(raised.value)
+
+
+def test_a_sound_mesh_has_no_warning() -> None:
+    assert set(warned(meshes.zoo("ellipsoid"))) <= {"clamped_radicand"}
+
+
+def test_tolerances_follow_the_unit_and_not_the_place() -> None:
+    """The allowed residual scales with the identity's sides; an offset does not widen it."""
+    body = meshes.quantised(meshes.zoo("cap"))
+    plain = curvcli.analyze(body.surface(), "all").checks
+    large = curvcli.analyze(body.moved(body.points * 1024).surface(), "all").checks
+    moved = curvcli.analyze(body.moved(body.points + 4096.0).surface(), "all").checks
+    power = {"gauss_bonnet": 0, "gauss_bonnet_combinatorial": 0, "force_balance": 1, "torque_balance": 2}
+    power |= {"position_balance": 2, "vector_area": 2, "area_gradient": 2}
+    for one, two, three in zip(plain, large, moved, strict=True):
+        if one.tolerance is None or one.name not in power:
+            continue
+        assert two.tolerance == one.tolerance * 1024 ** power[one.name]
+        assert three.tolerance == one.tolerance
+        assert three.residual == one.residual
