@@ -34,7 +34,7 @@ class Input(msgspec.Struct):
     polygons: int
 
 
-class Topology(msgspec.Struct, omit_defaults=True):
+class Topology(msgspec.Struct):
     """Counts of the triangulated surface, referenced vertices only."""
 
     vertices: int
@@ -120,7 +120,7 @@ class Remark(msgspec.Struct):
     examples: list[int]
 
 
-class Report(msgspec.Struct, omit_defaults=True):
+class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
     """The report of `curvcli analyze`; what was not computed is absent, what is undefined is null."""
 
     schema_version: int
@@ -129,10 +129,10 @@ class Report(msgspec.Struct, omit_defaults=True):
     conventions: dict[str, str | None]
     topology: Topology
     totals: dict[str, Value]
-    steiner: Steiner | msgspec.UnsetType
-    cmc: Cmc | msgspec.UnsetType
-    minimal: Minimal | msgspec.UnsetType
-    normals: Normals | msgspec.UnsetType
+    steiner: Steiner | msgspec.UnsetType = msgspec.UNSET
+    cmc: Cmc | msgspec.UnsetType = msgspec.UNSET
+    minimal: Minimal | msgspec.UnsetType = msgspec.UNSET
+    normals: Normals | msgspec.UnsetType = msgspec.UNSET
     components: list[Piece]
     loops: list[dict[str, str | int | bool | Value]]
     regions: list[Piece]

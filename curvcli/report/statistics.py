@@ -38,7 +38,7 @@ def statistics(
     nulls = len(numbers) - int(np.count_nonzero(known))
     if nulls:
         numbers, area = numbers[known], area[known]
-    described = (quantity.symbol, unit, quantity.kind, quantity.length_exponent)
+    described = (quantity.symbol.replace("*", ""), unit, quantity.kind, quantity.length_exponent)
     if not len(numbers):
         return ColumnStatistics(*described, None, None, None, None, None, None, None, None, nulls)
     # In units of a power of two near the largest value, so that squares and sums stay within the range of doubles.
