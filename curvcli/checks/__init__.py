@@ -2,6 +2,7 @@
 
 from . import (  # noqa: F401, I001  (the order of the report)
     gauss_bonnet,
+    fenchel,
     holonomy,
     balance,
     variation,

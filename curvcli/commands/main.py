@@ -13,7 +13,7 @@ import click
 from .._version import __version__
 from ..errors import CurvcliError, InputError, NoMatchError, OutputError, UsageError
 
-COMMANDS = ("analyze", "compare", "passes", "sample")
+COMMANDS = ("analyze", "compare", "curves", "passes", "sample")
 
 OK, FAILED_CHECK, USAGE, INPUT, OUTPUT, NO_MATCH, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130
 

@@ -11,7 +11,7 @@ from ..surface import Surface
 from .boundary import Boundary, boundary_loops
 from .darboux import Darboux
 from .frames import Bishop, twist
-from .polygon import Curves, Floats
+from .polygon import Curves, Floats, Mask
 from .turning import Turning
 from .writhe import writhe
 
@@ -53,28 +53,47 @@ def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) 
         "vertices": given.sizes.astype(np.int32),
         "length": given.length,
         "total_curvature": turning.total,
-        "sum_kappa_g": _whole(given, darboux.kappa_g),
+        "sum_kappa_g": complete_sum(given, darboux.kappa_g),
     }
-    area, force, torque = moments(boundary, darboux)
-    for name, vector in (("vector_area", area), ("force", force), ("torque", torque)):
-        table |= {f"{name}_{axis}": component for axis, component in zip("xyz", vector, strict=True)}
+    force, torque = pull(boundary, darboux)
+    for name, vector in (("vector_area", vector_area(given)), ("force", force), ("torque", torque)):
+        table |= components(name, vector)
     table |= {
         "holonomy": Bishop(turning).holonomy,
         "writhe": turns,
         "twist": turned,
-        "linking": np.rint(turns + turned / (2 * np.pi)) + 0.0,
+        "linking": linking(turns, turned),
     }
     return table
 
 
-def _whole(curves: Curves, values: Floats) -> Floats:
-    """(m,) sums over vertices between two edges; NaN where one of the terms is undefined."""
-    missing = curves.sum(np.isnan(values) & curves.inner) > 0
+def components(name: str, vector: Floats) -> dict[str, Floats]:
+    """The columns of a vector (3, n), without negative zeros."""
+    return {f"{name}_{axis}": component + 0.0 for axis, component in zip("xyz", vector, strict=True)}
+
+
+def linking(turns: Floats, turned: Floats) -> Any:
+    """(m,) writhe + twist / 2π, the integer that it is; masked where one of them is undefined."""
+    number = turns + turned / (2 * np.pi)
+    return np.ma.masked_array(np.rint(np.nan_to_num(number)).astype(np.int32), np.isnan(number))
+
+
+def complete_sum(curves: Curves, values: Floats, where: Mask | None = None) -> Floats:
+    """(m,) sums over vertices between two edges (or `where`); NaN where one of the terms is undefined."""
+    missing = curves.sum(np.isnan(values) & (curves.inner if where is None else where)) > 0
     return np.where(missing, np.nan, curves.sum(values))
 
 
-def moments(boundary: Boundary, darboux: Darboux) -> tuple[Floats, Floats, Floats]:
-    """(3, m) vector area, conormal force and torque of each boundary curve, in the file's unit of length.
+def vector_area(curves: Curves) -> Floats:
+    """(3, m) ½ Σ a × b of closed curves, in the square of their unit; NaN on open ones."""
+    local, power = curves.local
+    swept = 0.5 * np.array(cross(local, local[:, curves.following]))
+    area = np.ldexp(np.stack([curves.sum(x) for x in swept]), 2 * power)
+    return np.where(curves.closed & np.isfinite(area), area, np.nan)
+
+
+def pull(boundary: Boundary, darboux: Darboux) -> tuple[Floats, Floats]:
+    """(3, m) twice: conormal force Σ η|e| and torque Σ m × η|e| of each boundary curve, in the file's unit of length.
 
     Taken about the first vertex of each curve, where an offset costs no digits, then moved to the origin.
     """
@@ -82,13 +101,10 @@ def moments(boundary: Boundary, darboux: Darboux) -> tuple[Floats, Floats, Float
     xyz = surface.xyz[:, boundary.vertex]
     base = xyz[:, curves.start[:-1]]
     here = xyz - np.repeat(base, curves.sizes, axis=1)
-    there = here[:, curves.following]
-    swept = 0.5 * np.array(cross(here, there))
-    area = np.stack([curves.sum(x) for x in swept])
-    area[:, ~curves.closed] = np.nan
     conormal = darboux.conormal
     missing = curves.sum(np.isnan(conormal[0]) & curves.has_edge) > 0
     force = np.stack([curves.sum(x) for x in conormal])
-    torque = np.stack([curves.sum(x) for x in cross(0.5 * (here + there), conormal)]) + np.array(cross(base, force))
+    about = np.stack([curves.sum(x) for x in cross(0.5 * (here + here[:, curves.following]), conormal)])
+    torque = about + np.array(cross(base, force))
     force[:, missing] = torque[:, missing] = np.nan
-    return tuple(surface.in_file_unit(x, power) for x, power in ((area, 2), (force, 1), (torque, 2)))  # type: ignore[return-value]
+    return surface.in_file_unit(force, 1), surface.in_file_unit(torque, 2)

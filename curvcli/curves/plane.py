@@ -38,13 +38,8 @@ def plane_curves(turning: Turning) -> PlaneCurves:
     the points of a plane curve to doubles explains.
     """
     curves = turning.curves
-    size = curves.max(np.abs(curves.xyz).max(axis=0, initial=0.0))
-    power = np.frexp(np.where(np.isfinite(size), size, 1.0))[1]
-    scaled = np.ldexp(curves.xyz, -np.repeat(power, curves.sizes))
-    filled = curves.sizes > 0
-    origin = np.zeros((3, len(curves)))
-    origin[:, filled] = scaled[:, curves.start[:-1][filled]]
-    offset = scaled - np.repeat(origin, curves.sizes, axis=1)
+    offset, power = curves.local
+    coordinate = np.ldexp(curves.max(np.abs(curves.xyz).max(axis=0, initial=0.0)), -power)
     far = _farthest(curves, offset, dot(offset, offset))
     moment = np.array(cross(np.repeat(far, curves.sizes, axis=1), offset))
     normal = _farthest(curves, moment, dot(moment, moment))
@@ -53,7 +48,7 @@ def plane_curves(turning: Turning) -> PlaneCurves:
         normal = normal / norm
     height = np.abs(dot(np.repeat(normal, curves.sizes, axis=1), offset))
     # Where the normal is undefined all points lie on one line: plane, though in no particular plane.
-    plane = ~(curves.max(height) > 16 * EPSILON * np.ldexp(size, -power))
+    plane = ~(curves.max(height) > 16 * EPSILON * coordinate)
     largest = np.take_along_axis(normal, np.abs(normal).argmax(axis=0)[None], axis=0)[0]
     normal = np.where(plane, normal * np.where(largest < 0, -1.0, 1.0), np.nan)
     return PlaneCurves(plane, normal, _signed_total(turning, plane, normal))

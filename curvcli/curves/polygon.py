@@ -119,6 +119,16 @@ class Curves:
         """(n,) arc length from the beginning of the curve to each vertex."""
         return self.running(np.nan_to_num(self.edge_length))
 
+    @cached_property
+    def local(self) -> tuple[Floats, Rows]:
+        """Positions (d, n) about the first point of each curve, in units of 2 to a power (m,) that is near its size."""
+        filled = self.sizes > 0
+        origin = np.zeros((self.dimension, len(self)))
+        origin[:, filled] = self.xyz[:, self.start[:-1][filled]]
+        offset = self.xyz - np.repeat(origin, self.sizes, axis=1)
+        power = np.frexp(np.maximum(self.max(np.abs(offset).max(axis=0, initial=0.0)), 0.0))[1].astype(np.int64)
+        return np.ldexp(offset, -np.repeat(power, self.sizes)), power
+
     # ------------------------------------------------------------------ sums along curves
 
     def sum(self, values: NDArray[Any]) -> Floats:

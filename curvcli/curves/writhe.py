@@ -34,7 +34,7 @@ def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, F
         raise UsageError(f"the writhe needs curves in E^3, not in E^{curves.dimension}")
     chosen = within(curves.edges, max_edges)
     turns, error = np.full(len(curves), np.nan), np.full(len(curves), np.nan)
-    xyz = _scaled(curves)
+    xyz, _ = curves.local
     for size in np.unique(curves.edges[chosen & (curves.edges <= _SMALL)]).tolist():
         alike = np.flatnonzero(chosen & (curves.edges == size))
         step = max(1, _TOGETHER // max(1, size * size))
@@ -55,16 +55,6 @@ def within(edges: Rows, max_edges: int | None) -> NDArray[np.bool_]:
     chosen = np.empty(len(edges), bool)
     chosen[order] = np.cumsum(edges[order].astype(np.float64) ** 2) <= float(max_edges) ** 2
     return chosen
-
-
-def _scaled(curves: Curves) -> Floats:
-    """Positions about the first point of each curve, in units of a power of two near its size."""
-    filled = curves.sizes > 0
-    origin = np.zeros((3, len(curves)))
-    origin[:, filled] = curves.xyz[:, curves.start[:-1][filled]]
-    offset = curves.xyz - np.repeat(origin, curves.sizes, axis=1)
-    power = np.frexp(np.maximum(curves.max(np.abs(offset).max(axis=0, initial=0.0)), 0.0))[1]
-    return np.asarray(np.ldexp(offset, -np.repeat(power, curves.sizes)))
 
 
 def _corners(curves: Curves, xyz: Floats, chosen: Rows, edges: int) -> Floats:

@@ -1,0 +1,185 @@
+"""`curvcli curves`: boundary loops and polylines as space curves."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..errors import UsageError
+from . import options
+
+if TYPE_CHECKING:
+    from ..curves.measure import CurveMeasures
+    from ..output.formats import Format, Kind
+    from ..report.curves import CurveReport
+
+
+@click.command("curves", short_help="Measure boundary loops and OBJ polylines as space curves.")
+@click.argument("file", metavar="FILE")
+@click.option(
+    "-o",
+    "--output",
+    "outputs",
+    metavar="PATH",
+    multiple=True,
+    help="Write .csv .tsv .parquet .npz (a row per vertex of each curve) or .json (report); repeatable. `-` is stdout.",
+)
+@click.option(
+    "--table",
+    "tables",
+    metavar="KIND=PATH",
+    multiple=True,
+    help="Write a table, KIND curves (a row per curve) or vertices (as -o); repeatable.",
+)
+@click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+@click.option("--get", metavar="KEY", help="One value of the report on stdout, such as curves.0.writhe.")
+@click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
+@click.option(
+    "--max-writhe",
+    metavar="N",
+    type=click.IntRange(0),
+    default=20_000,
+    show_default=True,
+    help="Largest double sum, in edges: the writhe of curves beyond it, smallest first, is left undefined.",
+)
+@click.option(
+    "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
+)
+@options.weld
+@options.unit
+@options.input_format
+@options.max_faces
+@options.max_bytes
+@options.force
+@options.strict
+@options.talking
+def command(file: str, **settings: Any) -> int:
+    """Length, turning, torsion, frames, writhe and holonomy of every boundary loop of FILE and every `l` record.
+
+    A polyline whose last index is its first is closed. Boundary loops run with the surface on their left
+    and have geodesic and normal curvature too. Exits with 3 when FILE has neither.
+
+    \b
+      curvcli curves mesh.obj
+      curvcli curves knot.obj --get curves.0.writhe
+      curvcli curves mesh.ply -o points.csv --table curves=loops.csv
+    """
+    if settings["as_json"] and settings["get"] is not None:
+        raise click.UsageError("--json and --get both want stdout; choose one", click.get_current_context())
+    return measure(file, **settings)
+
+
+def measure(
+    file: str,
+    *,
+    outputs: tuple[str, ...],
+    tables: tuple[str, ...],
+    as_json: bool,
+    get: str | None,
+    stream_format: str | None,
+    max_writhe: int,
+    precision: str,
+    weld: str,
+    unit: str | None,
+    force: bool,
+    strict: bool,
+    quiet: bool,
+    verbose: int,
+    **limits: Any,
+) -> int:
+    """Check the options, read the file, measure its curves, write and tell; the exit code."""
+    from ..output.atomic import Outputs
+    from ..output.tables import parse_precision
+
+    wanted = _wanted(outputs, tables, stream_format)
+    to_stdout = any(path == "-" for path, _, _ in wanted)
+    if to_stdout and (as_json or get is not None):
+        raise UsageError("-o - and --json or --get both want stdout; choose one")
+    parse_precision(precision)
+    welding = options.welding(weld)
+
+    # Outputs are checked before the file is read.
+    with Outputs([path for path, _, _ in wanted], force) as files:
+        measures = _read(file, welding, max_writhe, quiet, limits)
+        report = _report(measures, welding, unit)
+        for path, kind, suffix in wanted:
+            with files.open(path) as stream:
+                _write(stream, measures, report, kind, suffix, precision)
+        files.commit()
+    _tell(report, as_json, get, quiet or to_stdout, verbose)
+    return 1 if strict and any(check.status == "fail" for check in report.checks) else 0
+
+
+def _read(file: str, weld: str | float, max_writhe: int, quiet: bool, limits: dict[str, Any]) -> CurveMeasures:
+    from ..curves.collect import curves_of_file
+    from ..curves.measure import CurveMeasures
+    from ..loading.read import read_mesh_file
+    from .progress import phase
+
+    with phase(f"reading {file}", quiet):
+        found = curves_of_file(read_mesh_file(sys.stdin.buffer if file == "-" else file, weld=weld, **limits))
+    with phase(f"computing {file}", quiet):
+        measures = CurveMeasures(found, max_writhe=max_writhe)
+        _ = measures.identities
+    return measures
+
+
+def _report(measures: CurveMeasures, weld: str | float, unit: str | None) -> CurveReport:
+    from ..report.curves import model
+
+    file = measures.found.file
+    exact = weld == "auto" and file is not None and file.format == "stl"
+    return model(measures, weld="exact" if exact else "none" if weld == "auto" else str(weld), unit=unit)
+
+
+def _tell(report: CurveReport, as_json: bool, get: str | None, quiet: bool, verbose: int) -> None:
+    """What goes to stdout: the report, one value of it, or the summary."""
+    import msgspec
+
+    if as_json:
+        from ..report.model import encode
+
+        sys.stdout.buffer.write(encode(msgspec.to_builtins(report)))
+    elif get is not None:
+        from ..report.lookup import look_up
+
+        click.echo(look_up(msgspec.to_builtins(report), get))
+    elif not quiet:
+        from ..report.curves_text import show
+
+        show(report, verbose)
+
+
+def _wanted(outputs: tuple[str, ...], tables: tuple[str, ...], stream_format: str | None) -> list[tuple[str, str, str]]:
+    """Path, kind and suffix of every output: a table of `curves` or `vertices`, or the `report`."""
+    from ..output.formats import format_of
+
+    def named(path: str, *kinds: Kind) -> Format:
+        return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)
+
+    wanted = []
+    for path in outputs:
+        found = named(path, "table", "report")
+        wanted.append((path, "report" if found.kind == "report" else "vertices", found.suffix))
+    for table in tables:
+        kind, equals, path = table.partition("=")
+        if not equals or not path or kind not in ("curves", "vertices"):
+            raise UsageError(f"--table {table}: expected KIND=PATH with KIND one of curves, vertices")
+        wanted.append((path, kind, named(path, "table").suffix))
+    return wanted
+
+
+def _write(stream: Any, measures: CurveMeasures, report: CurveReport, kind: str, suffix: str, precision: str) -> None:
+    if kind == "report":
+        import msgspec
+
+        from ..report.model import encode
+
+        stream.write(encode(msgspec.to_builtins(report)))
+    else:
+        from ..output.tables import write_table
+
+        columns = measures.totals if kind == "curves" else measures.points()
+        write_table(stream, columns, suffix, precision=precision)

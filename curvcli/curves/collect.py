@@ -1,0 +1,113 @@
+"""All curves of a mesh file: the boundary of its surface and its polylines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import InputError, Notice
+from ..loading.model import MeshFile
+from ..loading.surfaces import from_file
+from ..surface import Surface
+from .boundary import Boundary
+from .loops import boundary_of
+from .polygon import Curves, Mask, Rows
+
+
+@dataclass(frozen=True)
+class CurveSet:
+    """Curves with the vertices they run through.
+
+    curves: all, first the boundary curves, then the polylines. vertex: (n,) row of the file of each of their vertices.
+    boundary: the boundary curves; None where there is no surface.
+    """
+
+    curves: Curves
+    vertex: Rows
+    boundary: Boundary | None = None
+    file: MeshFile | None = None
+    notices: list[Notice] = field(default_factory=list)
+
+    @property
+    def boundaries(self) -> int:
+        """Number of boundary curves."""
+        return 0 if self.boundary is None else len(self.boundary.curves)
+
+
+def curves_of_file(file: MeshFile) -> CurveSet:
+    """The boundary curves of the file's surface and its `l` polylines.
+
+    A polyline whose last index is its first is closed.
+    Errors: InputError for a file without any curve, or coordinates of one that are not finite.
+    """
+    notices = list(file.notices)
+    boundary = None
+    if len(file.corners):
+        surface = from_file(file)
+        notices = list(surface.notices)
+        boundary = boundary_of(surface)
+    vertex, start, closed = _polylines(file)
+    if boundary is not None:
+        vertex = np.concatenate([boundary.vertex, vertex])
+        start = np.concatenate([boundary.start, boundary.start[-1] + start[1:]])
+        closed = np.concatenate([boundary.closed, closed])
+    if not len(closed):
+        raise InputError(
+            "no curve found: the surface has no boundary and there are no polylines",
+            path=file.path,
+            hint="expected a surface with a boundary, or `l` records in an OBJ file",
+        )
+    _check_finite(file, vertex)
+    curves = Curves(np.ascontiguousarray(file.xyz[:, vertex]), start, closed)
+    return CurveSet(curves, vertex, boundary, file, notices)
+
+
+def curves_of_surface(surface: Surface) -> CurveSet:
+    """The boundary curves of a surface."""
+    boundary = boundary_of(surface)
+    return CurveSet(boundary.curves, boundary.vertex, boundary, surface.file, list(surface.notices))
+
+
+def _polylines(file: MeshFile) -> tuple[Rows, Rows, Mask]:
+    """Vertices of all polylines, where each begins, and which are closed; the repeated last index is left out."""
+    lines = [line for line in file.polylines if len(line)]
+    if not lines:
+        return np.empty(0, np.int64), np.zeros(1, np.int64), np.empty(0, bool)
+    vertex = np.concatenate(lines).astype(np.int64)
+    sizes = np.fromiter(map(len, lines), np.int64, len(lines))
+    last = np.cumsum(sizes) - 1
+    closed = (vertex[last] == vertex[last - sizes + 1]) & (sizes > 1)
+    return np.delete(vertex, last[closed]), np.concatenate([[0], np.cumsum(sizes - closed)]), closed
+
+
+def _check_finite(file: MeshFile, vertex: Rows) -> None:
+    bad = ~np.isfinite(file.xyz[:, vertex]).all(axis=0)
+    if bad.any():
+        first = int(vertex[bad].min())
+        at = ", ".join(f"{value:g}" for value in file.xyz[:, first])
+        raise InputError(
+            f"coordinates ({at}) are not finite, expected finite numbers at every vertex of a curve",
+            path=file.path,
+            place=f"vertex {first}",
+        )
+
+
+def curve_notices(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None) -> list[Notice]:
+    """What should be said of the curves: repeated: vertices equal to the next; reversed_: where a curve turns back."""
+    return [notice for notice in _all(found, repeated, reversed_, refused, limit) if notice.count]
+
+
+def _all(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None) -> Iterator[Notice]:
+    yield from found.notices
+    if found.boundary is not None:
+        ends = np.flatnonzero(~found.boundary.closed)
+        message = "boundary curves end at edges with more than two faces"
+        yield Notice("open_boundary", len(ends), message, examples=tuple(ends[:5].tolist()))
+    message = "vertices of curves are equal to the next one; their rows are empty"
+    yield Notice("repeated_points", len(repeated), message, examples=tuple(repeated[:5].tolist()))
+    message = "vertices where a curve turns back on itself; frames and holonomy are undefined from there on"
+    yield Notice("reversals", len(reversed_), message, examples=tuple(reversed_[:5].tolist()))
+    message = f"curves are too large together for their writhe, a double sum over at most {limit} edges"
+    yield Notice("writhe_refused", refused, message, "--max-writhe sets the limit")

@@ -1,0 +1,172 @@
+"""Everything measured of a set of curves: a row per curve and a row per vertex."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..errors import Notice
+from ..loading.model import Labels
+from .collect import CurveSet, curve_notices
+from .darboux import Darboux
+from .frames import Bishop, Frenet, twist
+from .identities import Identity, identities
+from .loops import complete_sum, components, linking, pull, vector_area
+from .plane import plane_curves
+from .polygon import Floats
+from .turning import Turning
+from .writhe import MAX_EDGES, within, writhe
+
+
+class CurveMeasures:
+    """Totals and columns of all curves of a set, in the file's unit of length; NaN is undefined."""
+
+    def __init__(self, found: CurveSet, *, max_writhe: int | None = MAX_EDGES) -> None:
+        self.found, self.max_writhe = found, max_writhe
+        self.distinct, self.kept = found.curves.distinct()
+        self.turning = Turning(self.distinct)
+        self.frenet, self.bishop = Frenet(self.turning), Bishop(self.turning)
+        self.darboux = None if found.boundary is None else Darboux(found.boundary)
+
+    @cached_property
+    def writhe(self) -> tuple[Floats, Floats]:
+        """(m,) writhe in turns and the bound of its error."""
+        return writhe(self.distinct, self.max_writhe)
+
+    @cached_property
+    def identities(self) -> list[Identity]:
+        """What must hold along every curve."""
+        return identities(self.turning, self.plane, self.bishop, self.writhe)
+
+    @cached_property
+    def plane(self) -> Any:
+        """The planes of the curves."""
+        return plane_curves(self.turning)
+
+    @property
+    def notices(self) -> list[Notice]:
+        """What was accepted but should be said."""
+        vertex = self.found.vertex
+        repeated = np.delete(vertex, self.kept)
+        back = vertex[self.kept[self.turning.reversed]]
+        refused = int(np.count_nonzero(~within(self.distinct.edges, self.max_writhe)))
+        return curve_notices(self.found, repeated, back, refused, self.max_writhe)
+
+    def _boundary_first(self, values: Floats | None, like: int) -> Floats:
+        """Values of the boundary curves (or their vertices), then NaN for the polylines."""
+        if values is None:
+            return np.full(like, np.nan)
+        padded = np.full((*values.shape[:-1], like), np.nan)
+        padded[..., : values.shape[-1]] = values
+        return padded
+
+    # ------------------------------------------------------------------ a row per curve
+
+    @cached_property
+    def totals(self) -> dict[str, Any]:
+        """One row per curve; see `curvcli curves --help` for the order and the report for the keys."""
+        found, curves, turning = self.found, self.found.curves, self.turning
+        distinct, count = self.distinct, len(self.found.curves)
+        back = distinct.sum(turning.reversed)
+        torsion = self.frenet.torsion
+        middle = distinct.inner & distinct.inner[distinct.following]
+        boundary, darboux = found.boundary, self.darboux
+        turned = self._twist()
+        table: dict[str, Any] = {
+            "curve": np.arange(count, dtype=np.int32),
+            "kind": Labels((np.arange(count) >= found.boundaries).astype(np.int32), ("boundary", "polyline")),
+            "component": self._component(),
+            "closed": curves.closed,
+            "vertices": curves.sizes.astype(np.int32),
+            "length": curves.length,
+            "total_curvature": turning.total,
+            "total_sin2": distinct.sum(turning.sin2),
+            "total_tan2": np.where(back > 0, np.nan, distinct.sum(turning.tan2)),
+            "unknotted": np.ma.masked_array(turning.unknotted, ~turning.unknotted),
+            "plane": self.plane.plane,
+            "signed_total": self.plane.signed_total,
+            "turning_number": self._turning_number(),
+            "total_torsion": complete_sum(distinct, torsion, middle),
+            **components("tangent_change", turning.tangent_change),
+            **components("vector_area", vector_area(curves)),
+            "holonomy": self.bishop.holonomy,
+            "writhe": self.writhe[0],
+            "sum_kappa_g": self._boundary_first(self._darboux_sum("kappa_g"), count),
+            "sum_kappa_n": self._boundary_first(self._darboux_sum("kappa_n"), count),
+            "twist": turned,
+            "linking": linking(self.writhe[0], turned),
+        }
+        force, torque = (None, None) if boundary is None or darboux is None else pull(boundary, darboux)
+        for name, vector in (("force", force), ("torque", torque)):
+            table |= components(name, self._vectors(vector, count))
+        table["repeated_points"] = (curves.sizes - distinct.sizes).astype(np.int32)
+        return table
+
+    def _turning_number(self) -> Any:
+        number = self.plane.turning_number
+        return np.ma.masked_array(np.nan_to_num(number).astype(np.int32), np.isnan(number))
+
+    def _vectors(self, values: Floats | None, like: int) -> Floats:
+        return np.full((3, like), np.nan) if values is None else self._boundary_first(values, like)
+
+    def _component(self) -> Any:
+        count, mine = len(self.found.curves), self.found.boundaries
+        component = np.zeros(count, np.int32)
+        if self.found.boundary is not None:
+            component[:mine] = self.found.boundary.component
+        return np.ma.masked_array(component, np.arange(count) >= mine)
+
+    def _darboux_sum(self, column: str) -> Floats | None:
+        if self.darboux is None or self.found.boundary is None:
+            return None
+        return complete_sum(self.found.boundary.curves, getattr(self.darboux, column))
+
+    def _twist(self) -> Floats:
+        """(m,) twist of the surface along its boundary curves."""
+        normal = self._vectors(None if self.darboux is None else self.darboux.nu, self.found.curves.size)
+        return twist(self.turning, normal[:, self.kept])
+
+    # ------------------------------------------------------------------ a row per vertex
+
+    def _rows(self, values: Floats) -> Floats:
+        """Values at distinct points as rows of all points."""
+        rows = np.full((*values.shape[:-1], self.found.curves.size), np.nan)
+        rows[..., self.kept] = values
+        return rows
+
+    def points(self) -> dict[str, Any]:
+        """One row per vertex of each curve; what belongs to an edge stands in the row of the vertex it leaves.
+
+        At vertices: turning ψ, sin2 = 2 sin(ψ/2), tan2 = 2 tan(ψ/2), kappa_g, kappa_n, Frenet normal and binormal.
+        On edges: length, torsion, tangent, Bishop's bishop_u and bishop_v, Darboux's nu and eta.
+        """
+        curves, turning, frenet, bishop = self.found.curves, self.turning, self.frenet, self.bishop
+        size = curves.size
+        position = np.arange(size) - np.repeat(curves.start[:-1], curves.sizes)
+        darboux = self.darboux
+        nu = self._vectors(None if darboux is None else darboux.nu, size)
+        tangent = self._rows(self.distinct.tangent)
+        eta = np.cross(tangent, nu, axis=0)
+        return {
+            "curve": curves.label.astype(np.int32),
+            "position": position.astype(np.int32),
+            "vertex": self.found.vertex.astype(np.int32),
+            **dict(zip("xyz", curves.xyz, strict=True)),
+            "arc": curves.arc,
+            "length": curves.edge_length,
+            "turning": self._rows(turning.angle),
+            "sin2": self._rows(turning.sin2),
+            "tan2": self._rows(turning.tan2),
+            "torsion": self._rows(frenet.torsion),
+            "kappa_g": self._boundary_first(None if darboux is None else darboux.kappa_g, size),
+            "kappa_n": self._boundary_first(None if darboux is None else darboux.kappa_n, size),
+            **components("tangent", tangent),
+            **components("normal", self._rows(frenet.normal)),
+            **components("binormal", self._rows(frenet.binormal)),
+            **components("bishop_u", self._rows(bishop.u)),
+            **components("bishop_v", self._rows(bishop.v)),
+            **components("nu", nu),
+            **components("eta", eta),
+        }

@@ -1,0 +1,153 @@
+"""What is told of curves, as JSON: a row per curve, the identities that hold along them, and what was accepted."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from .._version import __version__
+from ..curves.identities import Identity
+from ..curves.measure import CurveMeasures
+from ..loading.model import Labels
+from .model import CheckRow, Input, Remark
+
+Vector = list[float | None]
+
+# Identities are listed curve by curve up to this many curves; beyond, one line each and those that fail.
+LISTED_CURVES = 100
+
+
+class CurveRow(msgspec.Struct):
+    """One curve; what is undefined is null. Angles in radians, writhe in turns, lengths in the file's unit.
+
+    kind: `boundary` (the surface on its left) or `polyline`. unknotted: true where the total curvature, at most 4π,
+    proves that the curve is no knot if it does not cross itself; null proves nothing. tangent_change: T(q) − T(p).
+    signed_total and turning_number: of plane closed curves. holonomy ≡ 2π · writhe (mod 2π). Boundary curves only:
+    component, sum_kappa_g, sum_kappa_n, force Σ η|e|, torque Σ m × η|e|, twist of the surface along the curve, and
+    linking, how often the curve links itself pushed off along ν.
+    """
+
+    curve: int
+    kind: str
+    component: int | None
+    closed: bool
+    vertices: int
+    length: float | None
+    total_curvature: float | None
+    total_sin2: float | None
+    total_tan2: float | None
+    unknotted: bool | None
+    plane: bool
+    signed_total: float | None
+    turning_number: int | None
+    total_torsion: float | None
+    tangent_change: Vector
+    vector_area: Vector
+    holonomy: float | None
+    writhe: float | None
+    sum_kappa_g: float | None
+    sum_kappa_n: float | None
+    twist: float | None
+    linking: int | None
+    force: Vector
+    torque: Vector
+    repeated_points: int
+
+
+class CurveReport(msgspec.Struct):
+    """The report of `curvcli curves`."""
+
+    schema_version: int
+    curvcli: str
+    input: Input
+    conventions: dict[str, str | int | None]
+    curves: list[CurveRow]
+    checks: list[CheckRow]
+    warnings: list[Remark]
+
+
+def model(measures: CurveMeasures, *, weld: str = "none", unit: str | None = None) -> CurveReport:
+    """The report of a set of curves."""
+    file = measures.found.file
+    return CurveReport(
+        schema_version=1,
+        curvcli=__version__,
+        input=Input(
+            path=file.path if file else None,
+            sha256=file.sha256 if file else None,
+            format=file.format if file else None,
+            vertices=file.xyz.shape[1] if file else 0,
+            polygons=file.polygons if file else 0,
+        ),
+        conventions={"weld": weld, "unit": unit, "max_writhe": measures.max_writhe},
+        curves=rows(measures),
+        checks=[row for identity in measures.identities for row in _checks(identity)],
+        warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in measures.notices],
+    )
+
+
+def rows(measures: CurveMeasures) -> list[CurveRow]:
+    """One row per curve."""
+    columns = {key: _values(column) for key, column in measures.totals.items()}
+    for stem in ("tangent_change", "vector_area", "force", "torque"):
+        columns[stem] = [list(each) for each in zip(*(columns[f"{stem}_{axis}"] for axis in "xyz"), strict=True)]
+    ordered = [columns[key] for key in CurveRow.__struct_fields__]
+    return [CurveRow(*row) for row in zip(*ordered, strict=True)]
+
+
+def _values(column: Any) -> list[Any]:
+    """A column as plain values, None where undefined."""
+    if isinstance(column, Labels):
+        return [column.names[code] for code in column.codes.tolist()]
+    if column.dtype.kind != "f":
+        listed: list[Any] = column.tolist()
+        return listed
+    return [_plain(value) for value in column.tolist()]
+
+
+def _checks(identity: Identity) -> list[CheckRow]:
+    """One row per curve, or of very many curves those that fail and one for the rest."""
+    passed = identity.residual <= identity.tolerance  # NaN fails
+    reason = np.full(len(passed), -1)
+    for number, (mask, _) in enumerate(identity.excluded):
+        reason[mask & (reason < 0)] = number
+    told = np.arange(len(passed))
+    if len(passed) > LISTED_CURVES:
+        told = np.flatnonzero(~passed & (reason < 0))
+    listed = [_check(identity, int(c), bool(passed[c]), int(reason[c])) for c in told]
+    if len(passed) > LISTED_CURVES and not listed:
+        listed = [_summary(identity, reason)]
+    return listed
+
+
+def _check(identity: Identity, curve: int, passed: bool, reason: int) -> CheckRow:
+    scope = f"curve {curve}"
+    if reason >= 0:
+        return CheckRow(identity.name, scope, "not_applicable", None, None, None, None, identity.excluded[reason][1])
+    value, expected, residual, tolerance = (
+        _plain(float(side[curve]))
+        for side in (identity.value, identity.expected, identity.residual, identity.tolerance)
+    )
+    status = "pass" if passed else "fail"
+    return CheckRow(identity.name, scope, status, value, expected, residual, tolerance, identity.detail)
+
+
+def _summary(identity: Identity, reason: np.ndarray[Any, Any]) -> CheckRow:
+    tested = np.flatnonzero(reason < 0)
+    if not len(tested):
+        why = identity.excluded[int(reason[0])][1]
+        return CheckRow(identity.name, "curves", "not_applicable", None, None, None, None, why)
+    closest = int(tested[(identity.residual / identity.tolerance)[tested].argmax()])
+    row = _check(identity, closest, True, -1)
+    row.detail = (
+        f"{len(tested):,} of {len(reason):,} curves pass, the others are not applicable; {row.scope} is closest"
+    )
+    row.scope = "curves"
+    return row
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None
