@@ -91,7 +91,13 @@ class Analysis:
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
         self._rules = self._applicable_rules()
-        wanted = {*chosen, *_ALWAYS, *self._totalled, *(need for rule in self._rules for need in rule.needs)}
+        wanted = {
+            *chosen,
+            *_ALWAYS,
+            *self._totalled,
+            *self._flags,
+            *(need for rule in self._rules for need in rule.needs),
+        }
         self.columns = evaluate(surface, wanted, area=conventions.area)
         self.cut: Analysis | None = None
         if regions is not None:
@@ -107,6 +113,11 @@ class Analysis:
     @cached_property
     def _totalled(self) -> list[str]:
         return [q.name for q in passes.quantities(public=False) if q.total and q.name in self._closure]
+
+    @cached_property
+    def _flags(self) -> list[str]:
+        """Hidden flags on the way to the chosen columns: what they mark is reported."""
+        return [name for name in self._closure if passes.quantity(name).kind == "flag"]
 
     def _applicable_rules(self) -> list[Any]:
         """Checks whose needs the chosen passes meet; lengths of edges come for the asking."""

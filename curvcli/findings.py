@@ -94,3 +94,12 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             "vertices with H² < 4K; their principal curvatures are taken equal",
             examples=_some(clamped),
         )
+    if "voronoi_unfinished" in columns:
+        unfinished = np.flatnonzero(columns["voronoi_unfinished"])
+        yield Notice(
+            "voronoi_unfinished",
+            len(unfinished),
+            "vertices whose Voronoi cell would take too many flips to find; it is left empty",
+            hint="--area mixed needs none; a mesh without long fans of thin triangles needs few",
+            examples=_some(unfinished),
+        )

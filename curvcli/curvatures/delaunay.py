@@ -1,0 +1,55 @@
+"""Areas of the cells of the intrinsic Voronoi diagram."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import Floats, face_blocks
+from ..declare import Column, Flags, Quantity, curvature_pass
+from ..gluing import after
+from ..intrinsic import IntrinsicTriangulation
+from ..surface import Surface
+from .star import null_where
+
+
+@curvature_pass(
+    provides=(
+        Quantity(
+            "A_voronoi",
+            symbol="A_voronoi",
+            formula="⅛ Σ (cot α + cot β) |e|² over the edges at p of the intrinsic Delaunay triangulation",
+            length_exponent=2,
+            preserves="ΣA_voronoi = area; unchanged where the surface is bent isometrically",
+            boundary="of the constrained Delaunay triangulation: edges of the boundary, and edges with more than two "
+            "faces, stay; the cell may be negative beyond them",
+            source="Sullivan, Discrete surfaces; Bobenko and Springborn, A discrete Laplace–Beltrami operator for "
+            "simplicial surfaces",
+        ),
+        Quantity("voronoi_unfinished", kind="flag", public=False),
+    )
+)
+def delaunay(surface: Surface) -> tuple[Column | Flags, ...]:
+    """Area of the vertex's cell in the intrinsic Voronoi diagram: the points of the surface that are closest to it.
+
+    The surface is first flipped to Delaunay, intrinsically: along straight edges within it. Null at the corners of
+    faces without area that no flip can mend, and where the flips were given up.
+    """
+    triangulation = IntrinsicTriangulation(surface)
+    unfinished = triangulation.unfinished_corners()
+    hidden = unfinished | triangulation.degenerate_corners() | ~surface.referenced
+    return null_where(hidden, circumcentric_areas(triangulation)), unfinished
+
+
+def circumcentric_areas(triangulation: IntrinsicTriangulation) -> Floats:
+    """(V,) circumcentric dual area ⅛ Σ (cot α + cot β) |e|² over the edges at each vertex."""
+    t = triangulation
+    area = np.zeros(t.n_vertices)
+    for block in face_blocks(len(t.side)):
+        side = t.side[block]
+        with np.errstate(invalid="ignore"):
+            part = t.lengths_squared(block) * t.weight[block] / 8
+        if t.twofold is not None:
+            part[t.twofold[side // 3]] /= 2
+        np.add.at(area, t.tail[side], part)
+        np.add.at(area, t.tail[after(side)], part)
+    return area
