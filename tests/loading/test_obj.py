@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from curvcli.errors import InputError
 from curvcli.loading import text
 from curvcli.loading.obj import parse_obj
+from curvcli.loading.surfaces import from_file
 from tests.loading.spelling import Meant, meant, obj_text, polygons, same
 
 SQUARE = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -132,6 +133,13 @@ class TestTraps:
     def test_polylines(self) -> None:
         mesh = parse_obj(SQUARE + b"l 1 2\nl 3/1 -1 1\nf 1 2 3\n")
         assert [line.tolist() for line in mesh.polylines] == [[0, 1], [2, 3, 0]]
+
+    def test_polylines_alone_are_no_surface_but_can_be_read(self) -> None:
+        mesh = parse_obj(SQUARE + b"l 1 2 3\n")
+        assert mesh.polygons == 0
+        assert mesh.polylines[0].tolist() == [0, 1, 2]
+        with pytest.raises(InputError, match="no faces, only `l` polylines"):
+            from_file(mesh)
 
     def test_short_faces_are_dropped_and_counted(self) -> None:
         mesh = parse_obj(SQUARE + b"g a\nf 1 2\nf 1 2 3\ng b\nf\nf 1 3 4\n")

@@ -306,7 +306,7 @@ def test_damaged_files_are_read_or_refused_in_one_line(data: st.DataObject) -> N
         end = min(len(mesh), begin + data.draw(st.integers(0, 30)))
         mesh[begin:end] = data.draw(st.one_of(st.sampled_from(MUTATIONS), st.binary(max_size=4)))
     kind = data.draw(st.sampled_from(["obj", "ply", "stl", None]))
-    weld: str | float = data.draw(st.sampled_from(["auto", "none", "exact", 1e-6]))
+    weld: str = data.draw(st.sampled_from(["auto", "none", "exact", "1e-6"]))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(text, "SMALL", data.draw(st.sampled_from([-1, 1 << 16])))
         try:
@@ -318,8 +318,8 @@ def test_damaged_files_are_read_or_refused_in_one_line(data: st.DataObject) -> N
             event("read")
             message = ""
             faces, _, _ = triangulate(read)
-            assert len(faces) > 0
-            assert 0 <= faces.min() <= faces.max() < read.xyz.shape[1]
+            assert len(faces) or read.polylines
+            assert ((faces >= 0) & (faces < read.xyz.shape[1])).all()
             per_polygon = [*read.polygon_properties.values(), *(label.codes for label in read.polygon_labels.values())]
             assert all(len(values) == read.polygons for values in per_polygon)
             assert all(len(values) == read.xyz.shape[1] for values in read.vertex_properties.values())

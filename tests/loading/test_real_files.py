@@ -13,6 +13,7 @@ from curvcli.errors import InputError
 from curvcli.loading.model import MeshFile
 from curvcli.loading.polygons import triangulate
 from curvcli.loading.read import read_mesh_file
+from curvcli.loading.surfaces import from_file
 from tests.shared import SHARED, needs_shared
 
 pytestmark = needs_shared
@@ -27,7 +28,9 @@ def rows() -> list[dict[str, str]]:
 
 def read(path: Path) -> tuple[MeshFile | None, str]:
     try:
-        return read_mesh_file(path), ""
+        mesh = read_mesh_file(path)
+        from_file(mesh)
+        return mesh, ""
     except InputError as error:
         return None, str(error)
 
