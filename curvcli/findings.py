@@ -12,6 +12,9 @@ from .census import duplicate_faces, duplicate_vertices
 from .errors import Notice
 from .surface import Surface
 
+# Rounding of the coordinates that moves K by more than this many radians is worth a warning.
+TRUSTED = 1e-6
+
 
 def _some(indices: NDArray[Any]) -> tuple[int, ...]:
     return tuple(int(i) for i in indices[:5])
@@ -86,6 +89,15 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
         else "closed patches have negative volume: their normals point inwards and signs are reversed",
         hint=None if surface.orient == "outward" else "--orient outward turns them",
     )
+    if "edge_length" in columns:
+        blurred = np.flatnonzero(rounding_of_K(surface, columns["edge_length"]) > TRUSTED)
+        yield Notice(
+            "coordinate_rounding",
+            len(blurred),
+            f"vertices where the rounding of the coordinates alone may change K by more than {TRUSTED:g} radians",
+            hint="the mesh is small against its distance from the origin: move it there before it is written",
+            examples=_some(blurred),
+        )
     if "kappa_clamped" in columns:
         clamped = np.flatnonzero(columns["kappa_clamped"])
         yield Notice(
@@ -103,3 +115,18 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             hint="--area mixed needs none; a mesh without long fans of thin triangles needs few",
             examples=_some(unfinished),
         )
+
+
+def rounding_of_K(surface: Surface, edge_length: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(V,) how far K could be from that of the surface before its coordinates were rounded to doubles.
+
+    A corner that moves by δ turns an edge e by up to δ/|e|; δ is half a unit in the last place of the largest
+    coordinate that a face uses. The file's own numbers may have fewer digits. Edges without length are left out.
+    """
+    used = surface.xyz if surface.referenced.all() else surface.xyz[:, surface.referenced]
+    last_place = np.spacing(np.abs(used).max()) * np.sqrt(3)
+    turn = np.divide(last_place, edge_length, where=edge_length > 0, out=np.zeros_like(edge_length))
+    if 2 * surface.degree.max() * turn.max() <= TRUSTED:
+        return np.zeros(surface.n_vertices)
+    ends = np.concatenate([surface.edges.a, surface.edges.b])
+    return np.asarray(2 * np.bincount(ends, np.tile(turn, 2), minlength=surface.n_vertices), np.float64)
