@@ -7,6 +7,8 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     mean,
     faces,
     edges,
+    absolute,
+    directions,
     areas,
     delaunay,
     densities,

@@ -1,0 +1,114 @@
+"""Absolute Gauss curvature: what the convex hull of the star has of it, and what the star has less."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from ..blocks import EPSILON, face_blocks
+from ..cones import normal_cone_areas
+from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
+from ..surface import Surface
+from ..topology import Edges, Index
+
+# Directions per block; temporaries stay in the second-level cache.
+_DIRECTIONS = 16384
+# Degrees up to this have a group of their own; larger ones are rounded up, the last direction repeated.
+_EXACT_DEGREE = 24
+
+_SHARED = {
+    "boundary": "null",
+    "source": "Sullivan, Discrete surfaces; Banchoff, Critical points and curvature for embedded polyhedra",
+}
+
+
+@curvature_pass(
+    provides=(
+        Quantity(
+            "K_plus",
+            symbol="K⁺_p",
+            formula="2π − Σ of the angles at p of the convex hull of Star(p) if p is extreme on it, else 0",
+            total="K_plus",
+            preserves="K⁺ − K⁻ = K; Σ(K⁺ + K⁻)/2π is the mean number of critical points of height functions",
+            description="Positive part of the Gauss curvature, a measure: the solid angle of the star's normal cone.",
+            **_SHARED,  # type: ignore[arg-type]
+        ),
+        Quantity(
+            "K_minus",
+            symbol="K⁻_p",
+            formula="K⁺ − K ≥ 0",
+            total="K_minus",
+            preserves="K⁺ − K⁻ = K; 0 everywhere exactly on locally convex surfaces",
+            description="Negative part of the Gauss curvature, a measure.",
+            **_SHARED,  # type: ignore[arg-type]
+        ),
+        Quantity(
+            "K_abs",
+            symbol="|K|_p",
+            formula="K⁺ + K⁻",
+            total="K_abs",
+            preserves="total_absolute_curvature: Σ ≥ 2π(2 + 2g), equality on tight surfaces",
+            description="Absolute Gauss curvature, a measure: the critical points of height functions at p, over 2π.",
+            **_SHARED,  # type: ignore[arg-type]
+        ),
+    )
+)
+def absolute_curvature(surface: Surface, K: Column, theta: Column, star_vector: VectorColumn) -> tuple[Column, ...]:
+    """K⁺, K⁻ and |K| from the convex hull of each star; needs no orientation."""
+    plus = np.where(surface.interior, np.maximum(K, 0.0), np.nan)
+    chosen = np.flatnonzero(surface.interior & ~np.isnan(K) & ~locally_convex(surface, K, theta))
+    neighbours, first = _neighbours(surface.edges, surface.n_vertices)
+    for vertices, degree in _blocks_by_degree(chosen, surface.degree):
+        place = np.minimum(np.arange(degree)[:, None], surface.degree[vertices] - 1) + first[vertices]
+        around = neighbours[place]
+        directions = np.array([x[around] - x[vertices] for x in surface.xyz])
+        plus[vertices] = np.maximum(plus[vertices], normal_cone_areas(directions, star_vector[:, vertices]))
+    minus = np.maximum(plus - K, 0.0)
+    return plus, minus, plus + minus
+
+
+def locally_convex(surface: Surface, K: Column, theta: Column) -> Flags:
+    """(V,) interior vertices at which the star is the boundary of its own convex hull, so that K⁺ = K.
+
+    All dihedral angles of one sign say that the link is locally convex. As K ≥ 0 makes it no longer than 2π, it winds
+    once exactly if they sum to no more than 2π: a link with w turns has Σ|θ| = 2πw − area, area < 2π. Where this
+    cannot be told (θ null, or unsigned for want of an orientation) the answer is no.
+    """
+    up, down = np.zeros(surface.n_vertices), np.zeros(surface.n_vertices)
+    for block in face_blocks(len(surface.edges)):
+        a, b, angle = surface.edges.a[block], surface.edges.b[block], theta[block]
+        for total, part in ((up, np.maximum(angle, 0.0)), (down, np.maximum(-angle, 0.0))):
+            np.add.at(total, a, part)
+            np.add.at(total, b, part)
+    rounding = 8 * EPSILON * surface.degree
+    convex = (np.minimum(up, down) <= rounding) & (up + down <= 2 * np.pi + rounding) & (rounding + K >= 0)
+    return np.asarray(convex & ~surface.without_orientation)
+
+
+def _neighbours(edges: Edges, vertices: int) -> tuple[Index, Index]:
+    """The other ends of the edges at every vertex, vertex by vertex, and where each vertex begins."""
+    one, other = np.concatenate([edges.a, edges.b]), np.concatenate([edges.b, edges.a])
+    rows = np.arange(len(one) + 1, dtype=np.int32)
+    by_vertex = csr_array((other, one, rows), shape=(len(one), vertices)).tocsc()
+    return by_vertex.data, by_vertex.indptr
+
+
+def _blocks_by_degree(chosen: NDArray[np.intp], degree: Index) -> Iterator[tuple[NDArray[np.intp], int]]:
+    """Blocks of vertices with the same number of directions, and that number."""
+    size = _rounded_up(degree[chosen])
+    order = np.argsort(size, kind="stable")
+    chosen, size = chosen[order], size[order]
+    groups, begin = np.unique(size, return_index=True)
+    for common, group in zip(groups.tolist(), np.split(chosen, begin)[1:], strict=True):
+        for block in face_blocks(len(group), max(_DIRECTIONS // common, 1)):
+            yield group[block], common
+
+
+def _rounded_up(degree: Index) -> NDArray[np.int64]:
+    """Degrees, those above a limit rounded up by at most an eighth, so that few groups hold them all."""
+    exponent = np.frexp(np.maximum(degree - 1, 1))[1].astype(np.int64)
+    unit = np.left_shift(1, np.maximum(exponent - 4, 0))
+    return np.where(degree <= _EXACT_DEGREE, degree, -(-degree.astype(np.int64) // unit) * unit)

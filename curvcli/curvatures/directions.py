@@ -1,0 +1,115 @@
+"""Principal directions from the curvature tensor of the star."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..blocks import EPSILON, Floats, cross, dot, face_blocks
+from ..declare import Column, Quantity, VectorColumn, curvature_pass
+from ..surface import Surface
+from .mean import LOST
+
+_SHARED = {
+    "kind": "direction",
+    "vector": True,
+    "boundary": "null; also where the tangential eigenvalues are equal to rounding or the patch has no orientation",
+    "source": "Sullivan, Discrete surfaces; "
+    "Cohen-Steiner and Morvan, Restricted Delaunay triangulations and normal cycle",
+    "preserves": "dir_1 ⊥ dir_2, both ⊥ **A**_p",
+}
+# Eigenvalues nearer to each other than this part of Σ|e| differ by the rounding of the dihedral angles only.
+_UMBILIC = 512 * EPSILON
+# Components of a direction are equally large to rounding.
+_EQUAL = 1 - 64 * EPSILON
+# The six entries of a symmetric 3 × 3 matrix.
+_ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+_WHERE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+
+
+@curvature_pass(
+    provides=(
+        Quantity(
+            "dir_1",
+            symbol="**e**₁",
+            formula="tangential eigenvector of Σ θ_e|e| ê⊗ê to the smaller eigenvalue",
+            partner="dir_2",
+            description="Direction of κ₁, a line: of unit length, its largest component positive.",
+            **_SHARED,  # type: ignore[arg-type]
+        ),
+        Quantity(
+            "dir_2",
+            symbol="**e**₂",
+            formula="tangential eigenvector of Σ θ_e|e| ê⊗ê to the larger eigenvalue",
+            partner="dir_1",
+            description="Direction of κ₂, a line: of unit length, its largest component positive.",
+            **_SHARED,  # type: ignore[arg-type]
+        ),
+    )
+)
+def principal_directions(
+    surface: Surface, theta: Column, A_vec: VectorColumn, star_area: Column
+) -> tuple[VectorColumn, ...]:
+    """Principal directions: the eigenvectors, in the plane orthogonal to **A**_p, of the curvature tensor of the star.
+
+    An edge bends the surface across itself, so the direction of κ₁ belongs to the smaller eigenvalue: on a cylinder it
+    goes round, not along. Lines rather than vectors: the first of their largest components (to rounding) is positive.
+    """
+    tensor, size = _tensors(surface, theta)
+    frames = np.full((2, 3, surface.n_vertices), np.nan)
+    usable = np.sqrt(dot(A_vec, A_vec)) >= LOST * star_area
+    usable &= surface.interior & (star_area > 0)
+    for block in face_blocks(surface.n_vertices):
+        frames[:, :, block] = _tangential(tensor[:, block], size[block], A_vec[:, block])
+    frames[:, :, ~usable] = np.nan
+    return frames[0], frames[1]
+
+
+def _tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
+    """(6, V) Σ θ_e |e| ê⊗ê over the edges at each vertex, and (V,) Σ |e|, to which its rounding is proportional."""
+    a, b = surface.edges.a, surface.edges.b
+    tensor, size = np.zeros((6, surface.n_vertices)), np.zeros(surface.n_vertices)
+    for block in face_blocks(len(surface.edges)):
+        ends = a[block], b[block]
+        span = [x[ends[1]] - x[ends[0]] for x in surface.xyz]
+        length = np.sqrt(dot(span, span))
+        bend = theta[block] * length
+        with np.errstate(divide="ignore", invalid="ignore"):
+            along = np.array(span) / length
+        for total, part in (
+            *((tensor[k], bend * along[i] * along[j]) for k, (i, j) in enumerate(_ENTRIES)),
+            (size, length),
+        ):
+            for end in ends:
+                np.add.at(total, end, part)
+    return tensor, size
+
+
+def _tangential(tensor: Floats, size: Floats, normal: VectorColumn) -> Floats:
+    """(2, 3, n) unit eigenvectors of the tensor's part orthogonal to the normal, the smaller eigenvalue first."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        normal = normal / np.sqrt(dot(normal, normal))
+        # A frame without branches in its formula (Duff et al.): u = e_x and v = e_y where the normal is ±e_z.
+        side = np.copysign(1.0, normal[2])
+        slant = -1 / (side + normal[2])
+        mixed = normal[0] * normal[1] * slant
+        u = np.array([1 + side * normal[0] ** 2 * slant, side * mixed, -side * normal[0]])
+        v = np.array([mixed, side + normal[1] ** 2 * slant, -normal[1]])
+        image_u, image_v = ([dot(tensor[row], w) for row in _WHERE] for w in (u, v))
+        half, off = 0.5 * (dot(u, image_u) - dot(v, image_v)), dot(u, image_v)
+        # Turned by half the angle of (half, off), u goes to the eigenvector of the larger eigenvalue.
+        turn = 0.5 * np.arctan2(off, half)
+        larger = np.cos(turn) * u + np.sin(turn) * v
+        smaller = np.array(cross(normal, larger))
+        umbilic = np.hypot(half, off) <= _UMBILIC * size
+    pair = np.array([_signed(smaller), _signed(larger)])
+    pair[:, :, umbilic] = np.nan
+    return pair
+
+
+def _signed(vector: VectorColumn) -> VectorColumn:
+    """The vector or its opposite: the first component that is largest, to rounding, is made positive."""
+    size = np.abs(vector)
+    largest = (size >= _EQUAL * size.max(axis=0)).argmax(axis=0)
+    leading = np.take_along_axis(vector, largest[None], axis=0)
+    signed: VectorColumn = np.copysign(1.0, leading) * vector
+    return signed
