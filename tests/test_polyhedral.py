@@ -71,7 +71,7 @@ def grid_cube(size: int) -> tuple[Floats, Simplices]:
 
 
 def tesseract_boundary() -> tuple[Floats, Simplices]:
-    """Eight cubes, each cut in six along monotone paths, so that the cuts of neighbours agree; corners by their bits."""
+    """Eight cubes, each cut in six along monotone paths so that neighbours agree; corners by their bits."""
     points = np.array([[(k >> axis) & 1 for axis in range(4)] for k in range(16)], float)
     cells = []
     for fixed, value in product(range(4), (0, 1)):
@@ -284,7 +284,7 @@ def test_dihedral_angles_stand_where_their_corners_stand() -> None:
 @pytest.mark.parametrize("thin", [1e-3, 1e-6, 1e-9])
 def test_needles_keep_their_digits(thin: float) -> None:
     """Two far pairs of close points: the angles are those of the same tetrahedron seen in 60 digits."""
-    import mpmath as mp
+    import mpmath as mp  # type: ignore[import-untyped]
 
     points = np.array([[0, 0, 0], [thin, 0, 0], [0.25, 0, 1], [0.25, thin, 1]])
     with mp.workdps(60):
