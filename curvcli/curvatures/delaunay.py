@@ -44,12 +44,12 @@ def circumcentric_areas(triangulation: IntrinsicTriangulation) -> Floats:
     """(V,) circumcentric dual area ⅛ Σ (cot α + cot β) |e|² over the edges at each vertex."""
     t = triangulation
     area = np.zeros(t.n_vertices)
-    for block in face_blocks(len(t.side)):
-        side = t.side[block]
-        with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore"):  # at the corners of faces without area
+        for block in face_blocks(len(t.side)):
+            side = t.side[block]
             part = t.lengths_squared(block) * t.weight[block] / 8
-        if t.twofold is not None:
-            part[t.twofold[side // 3]] /= 2
-        np.add.at(area, t.tail[side], part)
-        np.add.at(area, t.tail[after(side)], part)
+            if t.twofold is not None:
+                part[t.twofold[side // 3]] /= 2
+            np.add.at(area, t.tail[side], part)
+            np.add.at(area, t.tail[after(side)], part)
     return area
