@@ -12,9 +12,8 @@ from curvcli.checks import Check, rules
 from curvcli.cotangents import dirichlet
 from curvcli.pipeline import evaluate
 from curvcli.surface import Surface
-
 from tests.meshes import ZOO, Mesh, zoo
-from .strategies import any_mesh
+from tests.strategies import any_mesh
 
 
 def the_check(surface: Surface, **disturbed: object) -> Check:

@@ -15,9 +15,8 @@ import curvcli
 from curvcli.errors import InputError
 from curvcli.maps import SurfaceMap
 from curvcli.surface import Surface
-
-from .meshes import ZOO, Mesh, grid, of_sample, rotation, zoo
-from .strategies import any_mesh
+from tests.meshes import ZOO, Mesh, grid, of_sample, rotation, zoo
+from tests.strategies import any_mesh
 
 seeds = st.integers(0, 2**32 - 1)
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 import curvcli
 from curvcli.errors import InputError, UsageError
 from curvcli.polyhedral import PolyhedralManifold
-
-from .meshes import Mesh, cap, fan, of_sample, zoo
-from .strategies import closed
+from tests.meshes import Mesh, cap, fan, of_sample, zoo
+from tests.strategies import closed
 
 Floats = NDArray[np.float64]
 Simplices = list[tuple[int, ...]]
