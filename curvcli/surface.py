@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -364,10 +364,15 @@ def _as_components(points: ArrayLike) -> NDArray[np.float64]:
     given = np.asarray(points)
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
         raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (V, 3)")
-    xyz = np.array(given.T, np.float64, order="C", copy=None)
-    xyz = xyz.view()  # so that freezing ours leaves the caller's array writable
+    xyz = np.array(given.T, np.float64, order="C", copy=_copy(given))
+    xyz = xyz.view()  # so that freezing ours leaves the caller's array as it is
     xyz.setflags(write=False)
     return xyz
+
+
+def _copy(given: NDArray[Any]) -> bool | None:
+    """Copy what its owner may still change, and the rest only where type or layout ask for it."""
+    return True if given.flags.writeable else None
 
 
 def _as_triangles(faces: ArrayLike, vertices: int) -> Index:
@@ -382,4 +387,4 @@ def _as_triangles(faces: ArrayLike, vertices: int) -> Index:
             f"corner {given[face, corner]} does not exist, expected a vertex index from 0 to {vertices - 1}",
             place=f"face {face}",
         )
-    return np.array(given, np.int32, order="C", copy=None).view()
+    return np.array(given, np.int32, order="C", copy=_copy(given)).view()

@@ -39,6 +39,8 @@ def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
 
     try:
         faces, polygon, notices = triangulate(file)
+        for array in (file.xyz, faces):
+            array.setflags(write=False)  # nobody will change them: the surface need not copy them
         if not len(faces) and file.polylines:
             raise InputError("no faces, only `l` polylines", hint="`curvcli curves` measures polylines")
         return Surface(file.xyz.T, faces, orient=orient, polygon=polygon, file=file, notices=(*file.notices, *notices))
