@@ -132,7 +132,9 @@ class Analysis:
         if name not in self.columns:
             self.columns = evaluate(self.surface, [name], area=self.conventions.area, known=self.columns)
         if quantity.labels:
-            return np.array(quantity.labels)[self.columns[name]]
+            words = np.array(quantity.labels)[self.columns[name]]
+            words.setflags(write=False)
+            return words
         return presented(quantity, self.columns[name], self.surface, self.conventions.mean)
 
     @cached_property
@@ -256,7 +258,12 @@ def analyze(
     Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
     """
     chosen = resolve([passes] if isinstance(passes, str) else passes)
-    for option, value, known in (("area", area, tuple(CELL_AREAS)), ("mean", mean, ("sum", "average"))):
+    options = (
+        ("area", area, tuple(CELL_AREAS)),
+        ("mean", mean, ("sum", "average")),
+        ("orient", orient or "file", ("file", "outward")),
+    )
+    for option, value, known in options:
         if value not in known:
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld)
