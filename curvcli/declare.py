@@ -131,9 +131,12 @@ class Registry(Mapping[str, Pass]):
             if need not in self._providers and need not in (SURFACE, CELL_AREA):
                 near = get_close_matches(need, [*self._providers, SURFACE, CELL_AREA], 3)
                 raise UsageError(f"pass {new.name} needs {need}, which no pass provides; nearest: {', '.join(near)}")
-        for quantity in new.provides:
-            if quantity.name in self._providers:
-                raise UsageError(f"pass {new.name} provides {quantity.name}, which exists already")
+        names = [quantity.name for quantity in new.provides]
+        for name in names:
+            if name in self._providers or names.count(name) > 1:
+                raise UsageError(f"pass {new.name} provides {name}, which exists already")
+        if new.name in self._passes:
+            raise UsageError(f"a pass {new.name} exists already")
         self._passes[new.name] = new
         self._providers.update({quantity.name: new for quantity in new.provides})
 
