@@ -1,0 +1,141 @@
+"""From names to columns: what is asked for, what runs, what is kept and what is let go."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import curvcli
+from curvcli.declare import passes
+from curvcli.errors import UsageError
+from curvcli.pipeline import CORE, ORDER, evaluate, resolve, schedule
+from tests import meshes
+from tests.columns import PUBLIC
+
+
+def test_presets() -> None:
+    assert resolve(["core"]) == list(CORE)
+    assert resolve(["topology"]) == ["status", "degree"]
+    assert set(resolve(["all"])) == set(PUBLIC)
+    paper = resolve(["paper"])
+    assert set(CORE) - {"status", "degree"} <= set(paper) <= set(PUBLIC)
+    vertex = [name for name in resolve(["all"]) if PUBLIC[name].on == "vertex"]
+    assert vertex == [name for name in ORDER if name in vertex] + [name for name in vertex if name not in ORDER]
+
+
+def test_names_are_put_in_the_order_of_the_table() -> None:
+    assert resolve(["h", "K"]) == resolve(["K,h"]) == resolve([" K , h ", "K"]) == ["K", "h"]
+    assert resolve(["willmore", "topology"]) == ["status", "degree", "willmore"]
+
+
+def test_a_component_of_a_vector_stands_for_the_vector() -> None:
+    assert resolve(["A_vec_y"]) == ["A_vec"]
+
+
+@pytest.mark.parametrize(
+    ("name", "near"), [("kapa_1", "kappa_1"), ("wilmore", "willmore"), ("cor", "core"), ("H_vce", "H_vec")]
+)
+def test_an_unknown_name_is_answered_with_the_nearest(name: str, near: str) -> None:
+    with pytest.raises(UsageError) as raised:
+        resolve(["K", name])
+    assert repr(name) in str(raised.value)
+    assert near in str(raised.value)
+    assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("name", ["", "K,,h", "zzzzzzz", "K h", "star_area"])
+def test_what_is_no_name(name: str) -> None:
+    with pytest.raises(UsageError):
+        resolve([name])
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_only_what_is_needed_runs_and_each_after_its_needs(name: str) -> None:
+    order = schedule([name], "barycentric")
+    names = [one.name for one in order]
+    assert len(set(names)) == len(names)
+    known: set[str] = set()
+    for one in order:
+        required = {"A" if need == "cell_area" else need for need in one.needs} - {"surface"}
+        assert required <= known
+        known |= {quantity.name for quantity in one.provides}
+    wanted = {need for one in order for need in one.needs} | {"A", name}
+    assert all(wanted & {quantity.name for quantity in one.provides} for one in order)
+
+
+def test_each_pass_runs_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    runs: Counter[str] = Counter()
+    counting = {}
+    for name, one in passes.items():
+
+        def compute(*given: object, _name: str = name) -> object:
+            runs[_name] += 1
+            return passes_before[_name].compute(*given)
+
+        counting[name] = replace(one, compute=compute)
+    passes_before = dict(passes.items())
+    monkeypatch.setattr(passes, "_passes", counting)
+    monkeypatch.setattr(passes, "_providers", {q.name: one for one in counting.values() for q in one.provides})
+    evaluate(meshes.tetrahedron().surface(), list(PUBLIC))
+    assert set(runs.values()) == {1}
+    runs.clear()
+    evaluate(meshes.tetrahedron().surface(), ["A"])
+    assert set(runs) == {"star_sums", "A"}
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_intermediates_are_let_go(name: str) -> None:
+    assert set(evaluate(meshes.tetrahedron().surface(), [name])) == {name}
+
+
+def test_what_is_known_is_not_computed_again() -> None:
+    surface = meshes.tetrahedron().surface()
+    known = {"K": np.full(4, 12.0)}
+    found = evaluate(surface, ["K_density"], known=known)
+    np.testing.assert_array_equal(found["K_density"] * evaluate(surface, ["A"])["A"], known["K"])
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_columns_are_frozen(name: str) -> None:
+    surface = meshes.zoo("cap").surface()
+    (column,) = evaluate(surface, [name]).values()
+    assert not column.flags.writeable
+    size = {"vertex": surface.n_vertices, "edge": len(surface.edges), "face": surface.n_faces}[PUBLIC[name].on]
+    assert column.shape == ((3, size) if PUBLIC[name].vector else (size,))
+
+
+@pytest.mark.parametrize("name", passes)
+def test_every_pass_is_callable_on_a_surface(name: str) -> None:
+    """`passes.NAME(surface)` gives its column, or a dictionary of them, as the analysis does."""
+    surface = meshes.zoo("cap").surface()
+    one = passes[name]
+    found = one(surface)
+    if len(one.provides) == 1:
+        found = {one.provides[0].name: found}
+    whole = curvcli.analyze(surface, "all")
+    for quantity in one.provides:
+        if quantity.public and not quantity.labels:
+            np.testing.assert_array_equal(found[quantity.name], whole.column(quantity.name))
+        assert not found[quantity.name].flags.writeable
+
+
+def test_the_bare_function_is_there() -> None:
+    surface = meshes.tetrahedron().surface()
+    full = evaluate(surface, ["H_vec", "star_vector", "star_area"])
+    np.testing.assert_array_equal(
+        curvcli.passes.h.compute(surface, full["H_vec"], full["star_vector"], full["star_area"]),
+        curvcli.passes.h(surface),
+    )
+
+
+def test_the_cell_area_is_chosen() -> None:
+    surface = meshes.zoo("ellipsoid").surface()
+    for area, column in (("barycentric", "A"), ("mixed", "A_mixed"), ("voronoi", "A_voronoi")):
+        if column not in PUBLIC:
+            continue
+        found = evaluate(surface, ["K", column, "K_density"], area=area)
+        np.testing.assert_array_equal(found["K_density"], found["K"] / found[column])
+        assert set(evaluate(surface, ["K_density"], area=area)) == {"K_density"}
