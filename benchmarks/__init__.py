@@ -1,0 +1,1 @@
+"""Speed and memory of curvcli, measured beside its peers in one run; `python -m benchmarks --help`."""

@@ -1,0 +1,72 @@
+"""`python -m benchmarks`: every table, or those that are named."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import click
+
+from . import compute, end_to_end, quantities, startup
+from .meshes import Mesh, Order
+
+TABLES = ("startup", "compute", "end-to-end", "passes", "growth")
+
+
+@click.command()
+@click.argument("tables", nargs=-1, type=click.Choice(TABLES), metavar="[TABLE]...")
+@click.option("--quick", is_flag=True, help="Small meshes, three rounds, the main peers: a minute or two.")
+@click.option(
+    "--cache", type=click.Path(file_okay=False), help="Folder that keeps the meshes (default: a temporary one)."
+)
+@click.option("--repeats", type=click.IntRange(1), help="Rounds of every case (default: 5; quick: 3).")
+@click.option("--size", "sizes", type=click.IntRange(100), multiple=True, help="Vertices; repeatable.")
+@click.option("--shape", type=click.Choice(["sphere", "torus"]), default="sphere", show_default=True)
+@click.option(
+    "--order", "orders", type=click.Choice(["regular", "random"]), multiple=True, help="Order of the vertices."
+)
+def main(
+    tables: tuple[str, ...],
+    quick: bool,
+    cache: str | None,
+    repeats: int | None,
+    sizes: tuple[int, ...],
+    shape: str,
+    orders: tuple[Order, ...],
+) -> None:
+    """Measure curvcli beside its peers, in one run, and print medians and ratios.
+
+    TABLE: startup, compute, end-to-end, passes, growth; all of them if none is named. Peers that are not installed are
+    named and left out: pip install '.[bench]'.
+    """
+    chosen, rounds = tables or TABLES, repeats or (3 if quick else 5)
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(cache or temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+
+        def mesh(size: int, order: Order = "regular") -> Mesh:
+            return Mesh(folder, shape, size, order)  # type: ignore[arg-type]
+
+        def of_sizes(quickly: tuple[int, ...], fully: tuple[int, ...]) -> list[Mesh]:
+            return [
+                mesh(size, order) for size in sizes or (quickly if quick else fully) for order in orders or ("regular",)
+            ]
+
+        small = mesh(1000)
+        if "startup" in chosen:
+            startup.tables(small, rounds)
+        if "compute" in chosen:
+            for one in of_sizes((100_000,), (100_000, 1_000_000)):
+                compute.tables(one, small, rounds, quick)
+        if "end-to-end" in chosen:
+            for one in of_sizes((100_000,), (10_000, 100_000, 1_000_000)):
+                end_to_end.tables(one, rounds)
+        if "passes" in chosen:
+            for one in of_sizes((100_000,), (1_000_000,)):
+                quantities.pass_table(one, rounds)
+        if "growth" in chosen:
+            quantities.growth_table(of_sizes((10_000, 100_000), (100_000, 1_000_000, 4_000_000)), rounds)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,47 @@
+"""The whole process: a file goes in, a CSV and a coloured PLY come out."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from .harness import Case, Results, interleaved, python, seconds, show, times
+from .meshes import Mesh
+
+FORMATS = (".ply", ".obj", ".stl")
+OURS = "curvcli"
+SUMMARY = "curvcli, core preset and summary"
+
+# The columns that peers have, or can derive from what they have.
+PEERS_COLUMNS = "K,A,H_vec,h,K_density,willmore"
+PEERS = {
+    "VTK, polars": ("VTK", "polars"),
+    "VTK, savetxt": ("VTK", "savetxt"),
+    "libigl, savetxt": ("libigl", "savetxt"),
+    "trimesh, savetxt": ("trimesh", "savetxt"),
+}
+
+
+def measure(path: str, folder: Path, repeats: int) -> Results:
+    """Every way from one file to its outputs, in turn; all write into one folder."""
+    csv, ply = str(folder / "out.csv"), str(folder / "out.ply")
+    ours = python("-m", "curvcli", "analyze", path, "--force", "-o", csv, "-o", ply)
+    cases = {OURS: Case([*ours, "-q", "-p", PEERS_COLUMNS]), SUMMARY: Case(ours)}
+    cases |= {name: Case(python("-m", "benchmarks.peers", *how, path, csv, ply)) for name, how in PEERS.items()}
+    return interleaved(cases, repeats, f"end to end {Path(path).name}")
+
+
+def tables(mesh: Mesh, repeats: int) -> None:
+    """Measure and print, a table for each format."""
+    with tempfile.TemporaryDirectory(dir=mesh.folder) as folder:
+        for suffix in FORMATS:
+            results = measure(mesh.path(suffix), Path(folder), repeats)
+            show(
+                f"File to CSV and coloured PLY: {mesh.size:,} vertices, {suffix[1:].upper()}, whole process; "
+                f"medians of {repeats}",
+                results,
+                [
+                    ("time", lambda name, of=results: seconds(of.median(name, "wall"))),  # type: ignore[misc]
+                    ("curvcli / it", lambda name, of=results: times(of.ratio(OURS, name, "wall"))),  # type: ignore[misc]
+                ],
+            )

@@ -1,0 +1,101 @@
+"""Meshes of any size as arrays and files, made once per cache folder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from curvcli.output.stl import write_stl
+from curvcli.samples import get
+
+Shape = Literal["sphere", "torus"]
+Order = Literal["regular", "random"]
+SUFFIXES = (".npz", ".ply", ".obj", ".stl")
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A mesh in the cache folder, one file per format: `regular` or `random` order of its vertices."""
+
+    folder: Path
+    shape: Shape
+    size: int
+    order: Order = "regular"
+
+    @property
+    def name(self) -> str:
+        """What its files are called."""
+        return f"{self.shape}-{self.order}-{self.size}"
+
+    def path(self, suffix: str) -> str:
+        """Its file of that format, written if it is not there."""
+        path = self.folder / f"{self.name}{suffix}"
+        if not path.exists():
+            points, faces = self._arrays() if suffix != ".npz" else make(self.shape, self.size, self.order)
+            unfinished = path.with_name(f"unfinished-{path.name}")
+            _WRITERS[suffix](unfinished, points, faces)
+            unfinished.rename(path)
+        return str(path)
+
+    def _arrays(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        with np.load(self.path(".npz")) as stored:
+            return stored["points"], stored["faces"]
+
+
+def make(shape: Shape, size: int, order: Order) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Points (V, 3) that float32 holds exactly, and faces (F, 3): a bumpy sphere with jitter, or a torus."""
+    if shape == "torus":
+        sample = get("torus")(size=size, jitter=0.2)
+        points = sample.points
+    else:
+        sample = get("icosphere")(size=size)
+        x, y, z = sample.points.T
+        edge = (4 * np.pi / len(sample.faces)) ** 0.5 * 1.5
+        shaken = np.random.default_rng(0).normal(scale=0.07 * edge, size=sample.points.shape)
+        points = sample.points * (1 + 0.1 * np.sin(5 * x) * np.cos(3 * y) + 0.05 * np.sin(7 * z))[:, None] + shaken
+    faces = sample.faces.astype(np.int64)
+    if order == "random":
+        place = np.random.default_rng(1).permutation(len(points))
+        moved = np.empty_like(points)
+        moved[place] = points
+        points, faces = moved, place[faces]
+    return np.ascontiguousarray(points, np.float32).astype(np.float64), np.ascontiguousarray(faces)
+
+
+def _write_npz(path: Path, points: NDArray[Any], faces: NDArray[Any]) -> None:
+    with path.open("wb") as stream:
+        np.savez(stream, points=points, faces=faces)
+
+
+def _write_ply(path: Path, points: NDArray[Any], faces: NDArray[Any]) -> None:
+    header = (
+        "ply\nformat binary_little_endian 1.0\n"
+        f"element vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\n"
+        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    rows = np.empty(len(faces), [("size", "u1"), ("corners", "<i4", 3)])
+    rows["size"], rows["corners"] = 3, faces
+    with path.open("wb") as stream:
+        stream.write(header.encode())
+        points.astype("<f4").tofile(stream)
+        rows.tofile(stream)
+
+
+def _write_obj(path: Path, points: NDArray[Any], faces: NDArray[Any]) -> None:
+    with path.open("wb") as stream:
+        for keyword, rows in (("v", points), ("f", faces + 1)):
+            table = pl.DataFrame({"keyword": [keyword]}).join(pl.DataFrame(rows), how="cross")
+            table.write_csv(stream, include_header=False, separator=" ", float_precision=7)
+
+
+def _write_stl(path: Path, points: NDArray[Any], faces: NDArray[Any]) -> None:
+    with path.open("wb") as stream:
+        write_stl(stream, points, faces)
+
+
+_WRITERS = {".npz": _write_npz, ".ply": _write_ply, ".obj": _write_obj, ".stl": _write_stl}
