@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from .blocks import EPSILON, Floats, Vector, cross, dot
 from .topology import Mask
 
+# Squares below this have lost digits to the end of the range of doubles.
+_UNDERFLOW = float(np.finfo(np.float64).tiny) / EPSILON
 # Directions closer than this are one to rounding.
 _SAME = 8 * EPSILON
 # The error bound of a determinant of unit vectors, with room.
@@ -29,7 +31,11 @@ def normal_cone_areas(directions: Floats, hint: Floats) -> Floats:
     2π − Σ of the angles between neighbouring extreme directions; 0 where the cone contains a line. directions:
     (3, d, n), none of them zero. hint: (3, n) any vectors; where all directions are on one side of it, that saves time.
     """
-    unit = directions / np.sqrt(dot(directions, directions))
+    square = dot(directions, directions)
+    if square.min() < _UNDERFLOW:
+        directions = directions / np.abs(directions).max(axis=0)
+        square = dot(directions, directions)
+    unit = directions / np.sqrt(square)
     axis, pointed = _axes(unit, hint)
     area = np.zeros(unit.shape[2])
     if pointed.all():
@@ -76,20 +82,20 @@ def _wide_axes(unit: Floats, mean: Floats) -> tuple[Floats, Mask]:
     farthest = np.abs(x).argmin(axis=0)
     across = unit[:, farthest, np.arange(n)]
     across = across - dot(across, mean) * mean
-    across /= np.sqrt(dot(across, across))
-    beside = np.array(cross(mean, across))
-    y, z = dot(unit, across[:, None]), dot(unit, beside[:, None])
-    above, size = y >= 0, np.abs(y)
-    left, right = np.zeros(n), np.zeros(n)
     with np.errstate(divide="ignore", invalid="ignore"):
+        across /= np.sqrt(dot(across, across))
+        beside = np.array(cross(mean, across))
+        y, z = dot(unit, across[:, None]), dot(unit, beside[:, None])
+        above, size = y >= 0, np.abs(y)
+        lefts, rights = np.zeros((2, len(y) - 1, n))
         for i in range(len(y) - 1):
             rest = slice(i + 1, None)
             turn = _diamond(size[rest] * x[i] + size[i] * x[rest], size[rest] * z[i] + size[i] * z[rest])
             turn[above[rest] == above[i]] = 0.0
-            np.maximum(left, turn.max(axis=0), out=left)
-            np.minimum(right, turn.min(axis=0), out=right)
-        # Opposite directions combine to 0 / 0: a line, and the comparisons below are false.
-        left, right = _diamond_angle(left), _diamond_angle(right)
+            np.maximum(lefts[i:], turn, out=lefts[i:])
+            np.minimum(rights[i:], turn, out=rights[i:])
+        # Opposite directions come to 0 / 0: a line, and the comparisons below are false.
+        left, right = _diamond_angle(lefts.max(axis=0)), _diamond_angle(rights.min(axis=0))
         pointed = left - right < np.pi
         middle = 0.5 * (left + right)
         along, aside = np.cos(middle), np.sin(middle)
