@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any, BinaryIO
 
 from ..errors import InputError, UsageError
+from ..memory import require_polars
 from .content import inflate, open_regular, read_limited, shown
 from .limits import check_faces
 from .model import MeshFile
@@ -75,10 +76,15 @@ def _read(
         data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
         kind, notices = recognise(data, wanted)
         if len(data) > SMALL:
-            pool.submit(importlib.import_module, "polars")  # while trimesh is imported
+            pool.submit(_import_polars, len(data))  # while trimesh is imported
         mesh = _through_trimesh(data, kind, weld=weld, max_faces=max_faces)
         check_faces(mesh.polygons, max_faces)
         return replace(mesh, sha256=digest.result(), notices=(*notices, *mesh.notices))
+
+
+def _import_polars(data: int) -> None:
+    require_polars(data)
+    importlib.import_module("polars")
 
 
 def _through_trimesh(data: bytes, kind: str, **options: Any) -> MeshFile:

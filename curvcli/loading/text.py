@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..memory import require_polars
+
 BLANK, NEWLINE = 32, 10
 _BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
 _TOKEN_PER_LINE = bytes.maketrans(b" ", b"\n")
@@ -141,6 +143,7 @@ def read_columns(
         numbers, known = read_tokens(data, dtype)
         known = known.reshape(rows, -1)[:, skip:]
         return list(np.ascontiguousarray(numbers.reshape(rows, -1)[:, skip:].T)) if known.all() else None
+    require_polars(len(data))
     import polars as pl
 
     kind = pl.Float64 if dtype is np.float64 else pl.Int32
@@ -187,6 +190,7 @@ def read_tokens(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generi
     """
     if len(data) <= SMALL:
         return _read_tokens_slowly(data, dtype)
+    require_polars(len(data))
     import polars as pl
 
     kind = pl.Float64 if dtype is np.float64 else pl.Int32

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..declare import Quantity, passes
 from ..errors import Notice, UsageError
+from ..memory import require_polars
 from ..tables import TABLES, vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import format_of
@@ -64,6 +65,7 @@ def write_into(
     tables: pairs of a kind (`edges`, `faces`, …) and a path.
     """
     notices: list[Notice] = []
+    require_polars(64 * analysis.surface.n_vertices)
     for kind_of_table, path in tables:
         from .tables import write_table
 
