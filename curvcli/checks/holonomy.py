@@ -40,7 +40,7 @@ def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorCol
 
 
 def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: VectorColumn) -> Column:
-        # Counterclockwise is across the edge that enters the corner, or leaves it where the face is upside down.
+    """The angle by which transport round each vertex turns, in space: v keeps its parts along and across each edge.
 
     The walk goes counterclockwise as the first face is wound; where a neighbour is wound the other way its normal is
     reversed, so that no orientation of the surface is needed.
