@@ -151,7 +151,7 @@ def _walk(mate: Rows, descending: Mask) -> tuple[Rows, Rows, Mask]:
     count = len(descending)
     if not count:
         return np.empty(0, np.int64), np.zeros(1, np.int64), np.empty(0, bool)
-    if (mate[:count] < count).all():
+    if (mate[:count] < count).all() and not ((mate[count:] >= 0) & (mate[count:] < count)).any():
         mate = mate[:count]  # one orientation throughout: nothing runs against it
     states = len(mate)
     tied = np.flatnonzero(mate >= 0)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..blocks import cross, dot
+from .frames import unit
 from .polygon import EPSILON, Curves, Floats, Mask, Rows
 from .turning import Turning
 
@@ -43,9 +44,9 @@ def plane_curves(turning: Turning) -> PlaneCurves:
     far = _farthest(curves, offset, dot(offset, offset))
     moment = np.array(cross(np.repeat(far, curves.sizes, axis=1), offset))
     normal = _farthest(curves, moment, dot(moment, moment))
-    norm = np.sqrt(dot(normal, normal))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        normal = normal / norm
+    # On a thin curve the product is known to few digits; that it is perpendicular to the long way is what matters.
+    normal, along = unit(normal), unit(far)
+    normal = unit(normal - along * dot(along, normal))
     height = np.abs(dot(np.repeat(normal, curves.sizes, axis=1), offset))
     # Where the normal is undefined all points lie on one line: plane, though in no particular plane.
     plane = ~(curves.max(height) > 16 * EPSILON * coordinate)

@@ -35,6 +35,10 @@ def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, F
     chosen = within(curves.edges, max_edges)
     turns, error = np.full(len(curves), np.nan), np.full(len(curves), np.nan)
     xyz, _ = curves.local
+    # Two edges always lie in a plane.
+    flat = chosen & (curves.edges < 3)
+    turns[flat] = error[flat] = 0.0
+    chosen &= ~flat
     for size in np.unique(curves.edges[chosen & (curves.edges <= _SMALL)]).tolist():
         alike = np.flatnonzero(chosen & (curves.edges == size))
         step = max(1, _TOGETHER // max(1, size * size))
@@ -62,14 +66,12 @@ def _corners(curves: Curves, xyz: Floats, chosen: Rows, edges: int) -> Floats:
     position = np.arange(edges + 1)
     last = np.where(curves.closed[chosen], 0, edges)
     row = np.where(position < edges, position, last[:, None])
-    return xyz[:, np.minimum(curves.start[chosen][:, None] + row, max(curves.size - 1, 0))]
+    return xyz[:, np.minimum(curves.start[chosen][:, None] + row, curves.size - 1)]
 
 
 def _small(corners: Floats) -> tuple[Floats, Floats]:
     """Writhe of m curves of k edges, corners (3, m, k + 1)."""
     k = corners.shape[2] - 1
-    if k < 3:
-        return np.zeros(corners.shape[1]), np.zeros(corners.shape[1])
     angle, error = _pairs(corners, corners)
     apart = np.triu(np.ones((k, k), bool), 2)
     # The first and the last edge meet where the curve is closed.
