@@ -11,7 +11,7 @@ from ..surface import Surface
 from .boundary import Boundary, boundary_loops
 from .darboux import Darboux
 from .frames import Bishop, twist
-from .polygon import Curves, Floats, Mask
+from .polygon import Curves, Floats, Mask, scaled
 from .turning import Turning
 from .writhe import writhe
 
@@ -88,8 +88,8 @@ def vector_area(curves: Curves) -> Floats:
     """(3, m) ½ Σ a × b of closed curves, in the square of their unit; NaN on open ones."""
     local, power = curves.local
     swept = 0.5 * np.array(cross(local, local[:, curves.following]))
-    area = np.ldexp(np.stack([curves.sum(x) for x in swept]), 2 * power)
-    return np.where(curves.closed & np.isfinite(area), area, np.nan)
+    area = scaled(np.stack([curves.sum(x) for x in swept]), 2 * power)
+    return np.where(curves.closed, area, np.nan)
 
 
 def pull(boundary: Boundary, darboux: Darboux) -> tuple[Floats, Floats]:

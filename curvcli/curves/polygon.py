@@ -17,6 +17,13 @@ Mask = NDArray[np.bool_]
 EPSILON = float(np.finfo(np.float64).eps)
 
 
+def scaled(values: Floats, power: Rows | NDArray[np.int32]) -> Floats:
+    """Values times 2 to a power; NaN where no double holds them."""
+    with np.errstate(over="ignore", under="ignore"):
+        found = np.ldexp(values, power)
+    return np.where(np.isfinite(found) & ((found != 0) | (values == 0)), found, np.nan)
+
+
 class Curves:
     """Polygonal curves one after the other, so that one sweep serves ten curves or a hundred thousand.
 
@@ -89,13 +96,21 @@ class Curves:
         return mask
 
     @cached_property
+    def _safe(self) -> tuple[Floats, int]:
+        """Positions whose differences are doubles, in units of 2 to a power: 0 but at the end of their range."""
+        if np.abs(self.xyz).max(initial=0.0) < 2.0**1020:
+            return self.xyz, 0
+        return np.ldexp(self.xyz, -4), 4
+
+    @cached_property
     def _edge(self) -> tuple[Floats, Floats]:
         """Lengths (n,) and unit tangents (d, n) of the edges, at any scale: squares are taken near 1."""
-        vector = self.xyz[:, self.following] - self.xyz
+        xyz, unit = self._safe
+        vector = xyz[:, self.following] - xyz
         power = np.frexp(np.abs(vector).max(axis=0, initial=0.0))[1]
         vector = np.ldexp(vector, -power)
         norm = np.sqrt((vector * vector).sum(axis=0))
-        length = np.where(self.has_edge, np.ldexp(norm, power), np.nan)
+        length = np.where(self.has_edge, scaled(norm, power + unit), np.nan)
         norm[norm == 0] = np.nan
         return length, vector / norm
 
@@ -111,23 +126,30 @@ class Curves:
 
     @cached_property
     def length(self) -> Floats:
-        """(m,) length of each curve."""
-        return self.sum(self.edge_length)
+        """(m,) length of each curve; NaN where no double holds it."""
+        with np.errstate(over="ignore"):
+            length = self.sum(self.edge_length)
+        # An edge that no double measures is NaN, which a sum would leave out.
+        unknown = self.sum(np.isnan(self.edge_length) & self.has_edge) > 0
+        return np.where(np.isfinite(length) & ~unknown, length, np.nan)
 
     @cached_property
     def arc(self) -> Floats:
-        """(n,) arc length from the beginning of the curve to each vertex."""
-        return self.running(np.nan_to_num(self.edge_length))
+        """(n,) arc length from the beginning of the curve to each vertex; NaN where no double holds it."""
+        with np.errstate(over="ignore"):
+            arc = self.running(np.where(np.isnan(self.edge_length), np.inf, self.edge_length))
+        return np.where(np.isfinite(arc), arc, np.nan)
 
     @cached_property
     def local(self) -> tuple[Floats, Rows]:
         """Positions (d, n) about the first point of each curve, in units of 2 to a power (m,) that is near its size."""
         filled = self.sizes > 0
+        xyz, unit = self._safe
         origin = np.zeros((self.dimension, len(self)))
-        origin[:, filled] = self.xyz[:, self.start[:-1][filled]]
-        offset = self.xyz - np.repeat(origin, self.sizes, axis=1)
+        origin[:, filled] = xyz[:, self.start[:-1][filled]]
+        offset = xyz - np.repeat(origin, self.sizes, axis=1)
         power = np.frexp(np.maximum(self.max(np.abs(offset).max(axis=0, initial=0.0)), 0.0))[1].astype(np.int64)
-        return np.ldexp(offset, -np.repeat(power, self.sizes)), power
+        return np.ldexp(offset, -np.repeat(power, self.sizes)), power + unit
 
     # ------------------------------------------------------------------ sums along curves
 

@@ -256,6 +256,24 @@ def test_what_is_odd_is_said(cli: Cli, tmp_path: Path) -> None:
     assert digon["holonomy"] is digon["turning_number"] is digon["total_tan2"] is None
 
 
+@pytest.mark.parametrize("scale", ["1e200", "1.6e308", "1e-310", "5e-324"])
+def test_any_scale_of_doubles(cli: Cli, tmp_path: Path, scale: str) -> None:
+    text = "v 0 0 0\nv S 0 0\nv S S 0\nv -S S S\nf 1 2 3\nf 1 3 4\nl 1 2 3 4\nl 1 2 3 1\n"
+    one, other = tmp_path / "one.obj", tmp_path / "other.obj"
+    one.write_text(text.replace("S", "1"))
+    other.write_text(text.replace("S", scale))
+    plain, scaled = cli.told(one)["curves"], cli.told(other)["curves"]
+    for row, expected in zip(scaled, plain, strict=True):
+        for key in ("total_curvature", "total_torsion", "holonomy", "writhe", "turning_number", "plane"):
+            assert row[key] == pytest.approx(expected[key], abs=1e-14), key
+        length = expected["length"] * float(scale)
+        assert row["length"] == (pytest.approx(length, rel=1e-12, abs=1e-323) if np.isfinite(length) else None)
+    table = cli.run(other, "-o", "-", "--format", "csv")
+    assert table.returncode == 0
+    assert table.stderr == ""
+    assert "inf" not in table.stdout
+
+
 def test_the_same_input_gives_the_same_bytes(cli: Cli, knot: Path) -> None:
     assert cli.run(knot, "--json").stdout == cli.run(knot, "--json").stdout
 
