@@ -22,6 +22,7 @@ from .topology import Index
 
 LABELS = ("groups", "objects", "materials")
 FILES = (".npy", ".csv", ".txt")
+MAGIC = b"\x93NUMPY"
 
 
 @dataclass(frozen=True)
@@ -70,17 +71,40 @@ def read_labels(path: str) -> NDArray[Any]:
     Errors: InputError for a file that cannot be read or holds something else.
     """
     try:
-        if path.lower().endswith(".npy"):
-            return np.asarray(np.load(path, allow_pickle=False))
-        with open(path, encoding="utf-8-sig") as stream:
-            lines = [line.strip() for line in stream if line.strip()]
-        if lines and not _is_number(lines[0]):
-            del lines[0]
-        return np.array([float(line) for line in lines])
+        # What is no regular file could block, or never end.
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise InputError("is not a regular file, expected one label per face", path=path)
+        return _read_array(path) if path.lower().endswith(".npy") else _read_lines(path)
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", path=path) from None
     except ValueError as error:
-        raise InputError(f"{error}, expected one whole number per line", path=path) from None
+        raise InputError(f"{error}, expected one whole number per face", path=path) from None
+
+
+def _read_array(path: str) -> NDArray[Any]:
+    with open(path, "rb") as stream:
+        if stream.read(len(MAGIC)) != MAGIC:
+            raise ValueError("is not a .npy file")
+    try:
+        # Mapped first: a header that promises more than the file holds is refused before memory is taken.
+        return np.array(np.load(path, mmap_mode="r", allow_pickle=False))
+    except (OSError, MemoryError):
+        raise
+    except Exception as error:
+        # A damaged header raises whatever the parts of Python's parser that numpy borrows may raise.
+        raise ValueError(f"is a damaged .npy file ({error})") from None
+
+
+def _read_lines(path: str) -> NDArray[Any]:
+    with open(path, encoding="utf-8-sig") as stream:
+        lines = [(place, line.strip()) for place, line in enumerate(stream, 1) if line.strip()]
+    if lines and not _is_number(lines[0][1]):
+        del lines[0]
+    try:
+        return np.array([float(text) for _, text in lines])
+    except ValueError:
+        place, text = next(line for line in lines if not _is_number(line[1]))
+        raise InputError(f"{text[:40]!r}, expected one whole number", path=path, place=f"line {place}") from None
 
 
 def cut_apart(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
@@ -121,9 +145,11 @@ def findings(cut: Surface, groups: Groups) -> list[Notice]:
 def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions:
     if labels.ndim != 1 or labels.dtype.kind not in "iufb":
         raise InputError(f"{source}: shape {labels.shape} of {labels.dtype}, expected one whole number per face")
-    whole = labels.astype(np.int64) if np.isfinite(labels).all() else np.full(len(labels), -1)
-    if not (whole == labels).all():
-        first = int(np.flatnonzero(whole != labels)[0])
+    with np.errstate(invalid="ignore"):
+        whole = labels.astype(np.int64)
+    wrong = np.flatnonzero(whole != labels)
+    if len(wrong):
+        first = int(wrong[0])
         raise InputError(f"{source}: label {labels[first]} of face {first}, expected a whole number")
     per_face = _per_face(surface, whole, source)
     names, codes = np.unique(per_face[per_face >= 0], return_inverse=True)
