@@ -4,6 +4,7 @@ from . import (  # noqa: F401, I001  (the order of the report)
     gauss_bonnet,
     fenchel,
     holonomy,
+    absolute,
     balance,
     variation,
     first_variation,
