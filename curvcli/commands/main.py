@@ -41,6 +41,15 @@ def worst(codes: list[int]) -> int:
 class LazyGroup(click.Group):
     """A group whose commands are imported when they are named."""
 
+    def invoke(self, ctx: click.Context) -> object:
+        """Run the command; an interrupt is told once, without the blank line that click puts before it."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            if sys.stderr.isatty():
+                click.echo(err=True)  # after the terminal's ^C
+            raise click.Abort from None
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The commands in the order of the help."""
         return list(COMMANDS)
@@ -101,9 +110,10 @@ def main() -> NoReturn:
     except CurvcliError as error:
         say(str(error))
         code = exit_code(error)
-    except BrokenPipeError:
-        # Whoever read our output has seen enough; keep Python from complaining about it at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (BrokenPipeError, SystemExit):
+        # Whoever read our output has seen enough (click makes a SystemExit of it, and nothing else here does); keep
+        # Python from complaining about it at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     except (KeyboardInterrupt, click.Abort):
         say("interrupted")
         code = INTERRUPTED
