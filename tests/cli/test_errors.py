@@ -1,0 +1,140 @@
+"""What is refused: with which code, in one line, and with nothing written."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from tests.cli.program import CUBE, DISK, MOBIUS, curvcli, wrote
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["analzye", CUBE], "analyze"),
+        (["analyze"], "MESH"),
+        (["analyze", CUBE, "--bogus"], "--bogus"),
+        (["analyze", CUBE, "-p", "kapa_1"], "kappa_1"),
+        (["analyze", CUBE, "-p", ""], "unknown pass"),
+        (["analyze", CUBE, "--area", "circular"], "barycentric"),
+        (["analyze", CUBE, "--mean", "median"], "average"),
+        (["analyze", CUBE, "--orient", "inward"], "outward"),
+        (["analyze", CUBE, "--weld", "-1"], "--weld"),
+        (["analyze", CUBE, "-o", "t.xyz"], ".csv"),
+        (["analyze", CUBE, "-o", "t"], "suffix"),
+        (["analyze", CUBE, DISK, "-o", "t.csv"], "{stem}"),
+        (["analyze", CUBE, "--max-faces", "0"], "--max-faces"),
+        (["passes", "kapa_1"], "kappa_1"),
+        (["sample", "toruss", "-o", "t.obj"], "torus"),
+    ],
+)
+def test_usage(arguments: list[str], words: str, tmp_path: Path) -> None:
+    ended = curvcli(*arguments, folder=tmp_path)
+    assert ended.code == 2
+    assert words in ended.complaint
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("none.obj", None, "no such file"),
+        ("empty.obj", "", "empty"),
+        ("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no faces"),
+        ("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "9"),
+        ("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", "not finite"),
+        ("short.ply", "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nend_header\n", ""),
+        ("t.stl", "v 0 0 0\nf 1 1 1\n", ""),
+        ("mesh.xyz", "1 2 3\n", ".xyz"),
+    ],
+)
+def test_input(name: str, content: str | None, words: str, tmp_path: Path) -> None:
+    mesh = tmp_path / name
+    if content is not None:
+        mesh.write_text(content)
+    ended = curvcli("analyze", mesh, "-o", tmp_path / "t.csv")
+    assert ended.code == 3
+    assert ended.complaint.startswith(str(mesh))
+    assert words in ended.complaint
+    assert not (tmp_path / "t.csv").exists()
+
+
+def test_folders_and_pipes_are_no_meshes(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.obj"
+    os.mkfifo(pipe)
+    for place in (tmp_path, pipe, Path("/dev/null")):
+        ended = curvcli("analyze", place)
+        assert ended.code == 3
+        assert str(place) in ended.complaint
+
+
+def test_a_name_that_is_not_text(tmp_path: Path) -> None:
+    """Control characters in a name do not break the line."""
+    ended = curvcli("analyze", tmp_path / "two\nlines\x1b[31m.obj")
+    assert ended.code == 3
+    assert "\x1b" not in ended.complaint
+
+
+def test_an_output_that_exists_is_refused_before_any_work(tmp_path: Path) -> None:
+    old, new = tmp_path / "old.csv", tmp_path / "new.csv"
+    old.write_text("mine\n")
+    for mesh in (CUBE, str(tmp_path / "none.obj")):
+        ended = curvcli("analyze", mesh, "-o", new, "-o", old)
+        assert ended.code == 4
+        assert str(old) in ended.complaint
+        assert "--force" in ended.complaint
+    assert old.read_text() == "mine\n"
+    assert not new.exists()
+    wrote(curvcli("analyze", CUBE, "-q", "-o", old, "--force"))
+    assert old.read_text().startswith("vertex,")
+
+
+def test_force_keeps_what_is_there_when_the_mesh_is_bad(tmp_path: Path) -> None:
+    old = tmp_path / "old.csv"
+    old.write_text("mine\n")
+    assert curvcli("analyze", tmp_path / "none.obj", "-o", old, "--force").code == 3
+    assert old.read_text() == "mine\n"
+    assert list(tmp_path.iterdir()) == [old]
+
+
+def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    (tmp_path / "folder.csv").mkdir()
+    for place in (tmp_path / "none" / "t.csv", tmp_path / "file" / "t.csv", tmp_path / "folder.csv"):
+        ended = curvcli("analyze", tmp_path / "no-mesh.obj", "-o", place)
+        assert ended.code == 4
+        assert str(place) in ended.complaint
+
+
+def test_one_output_is_not_written_twice(tmp_path: Path) -> None:
+    ended = curvcli("analyze", CUBE, "-o", tmp_path / "t.csv", "-o", tmp_path / "x" / ".." / "t.csv")
+    assert ended.code == 4
+    other = tmp_path / "cube.obj"
+    other.write_bytes(Path(CUBE).read_bytes())
+    ended = curvcli("analyze", CUBE, other, "-o", tmp_path / "{stem}.csv")
+    assert ended.code == 4
+    assert "cube.csv" in ended.complaint
+    assert list(tmp_path.iterdir()) == [other]
+
+
+def test_one_bad_mesh_does_not_stop_the_others(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.obj"
+    bad.write_text("v 0 0 0\n")
+    ended = curvcli("analyze", CUBE, bad, MOBIUS, "-q", "-o", tmp_path / "{stem}.csv", "-o", tmp_path / "{stem}.json")
+    assert ended.code == 3
+    assert ended.complaint.startswith(str(bad))
+    written = {f"{stem}.{suffix}" for stem in ("cube", "mobius") for suffix in ("csv", "json")}
+    assert {path.name for path in tmp_path.iterdir()} == {"bad.obj"} | written
+
+
+def test_stems(tmp_path: Path) -> None:
+    wrote(curvcli("analyze", CUBE, "-q", "-o", tmp_path / "k-{stem}-k.csv"))
+    assert [path.name for path in tmp_path.iterdir()] == ["k-cube-k.csv"]
+
+
+def test_an_error_names_the_way_out() -> None:
+    ended = curvcli("analyze", "no-such-folder/none.obj")
+    assert ended.code == 3
+    assert "no-such-folder/none.obj" in ended.complaint
