@@ -33,7 +33,7 @@ class Orientation:
 
 def same_direction(faces: Index, one: Index, other: Index) -> Mask:
     """Whether two half-edges of one edge run the same way, that is, whether their faces disagree."""
-    tail, _ = ends(faces)
+    tail = faces.ravel()
     same: Mask = tail[one] == tail[other]
     return same
 
@@ -74,6 +74,35 @@ def orient_stars(faces: Index, edges: Edges) -> Sign:
     np.minimum.at(lowest, vertex, np.arange(n))
     sign = np.where(sheet[:n] == sheet[lowest[vertex]], 1, -1)
     return sign.astype(np.int8).reshape(-1, 3)
+
+
+def _ways(faces: Index, half_edges: Index | slice, orientation: Orientation) -> Sign:
+    """+1 where the oriented face runs along its half-edge from the lower end to the higher, else -1."""
+    tail, head = ends(faces)
+    way = np.where(tail[half_edges] < head[half_edges], 1, -1).astype(np.int8)
+    if orientation.face_sign is not None:
+        way *= np.repeat(orientation.face_sign, 3)[half_edges]
+    return way
+
+
+def half_edge_sum(faces: Index, edges: Edges, orientation: Orientation) -> NDArray[np.int32]:
+    """(E,) oriented faces that run along each edge from a to b, less those from b to a: 0 where they cancel."""
+    way = _ways(faces, slice(None), orientation)
+    return np.add.reduceat(way[edges.order], edges.start[:-1], dtype=np.int32)
+
+
+def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask:
+    """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
+    closed = np.ones(len(orientation.orientable), bool)
+    odd = edges.valence != 2
+    if odd.any():
+        half_edges = edges.order[np.repeat(odd, edges.valence)]
+        edge = np.repeat(np.flatnonzero(odd), edges.valence[odd])
+        key = edge * len(closed) + orientation.patch[half_edges // 3].astype(np.int64)
+        key, where, count = np.unique(key, return_inverse=True, return_counts=True)
+        unbalanced = (count != 2) | (np.bincount(where, _ways(faces, half_edges, orientation)) != 0)
+        closed[(key % len(closed))[unbalanced]] = False
+    return closed
 
 
 def _double_cover(nodes: int, one: Index, other: Index, crossing: Mask) -> Index:

@@ -5,15 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .blocks import signed_volumes
+from .arrays import as_components, as_triangles
+from .blocks import face_blocks, signed_volumes
 from .errors import InputError, Notice
 from .groups import Groups, by_label, whole
-from .orientation import Orientation, Sign, orient, orient_stars, same_direction
+from .orientation import (
+    Orientation,
+    Sign,
+    closed_patches,
+    half_edge_sum,
+    orient,
+    orient_stars,
+    same_direction,
+)
 from .topology import (
     Edges,
     Index,
@@ -57,8 +66,8 @@ class Surface:
         file: MeshFile | None = None,
         notices: Sequence[Notice] = (),
     ) -> None:
-        self.xyz_given = _as_components(points)
-        triangles = _as_triangles(faces, self.xyz_given.shape[1])
+        self.xyz_given = as_components(points)
+        triangles = as_triangles(faces, self.xyz_given.shape[1])
         repeated = (
             (triangles[:, 0] == triangles[:, 1])
             | (triangles[:, 1] == triangles[:, 2])
@@ -153,7 +162,10 @@ class Surface:
     @cached_property
     def corner_count(self) -> Index:
         """(V,) number of faces at each vertex."""
-        return np.bincount(self.faces.ravel(), minlength=self.n_vertices).astype(np.int32)
+        count = np.zeros(self.n_vertices, np.int32)
+        for block in face_blocks(self.n_faces):
+            np.add.at(count, self.faces[block].ravel(), np.int32(1))
+        return count
 
     @cached_property
     def referenced(self) -> Mask:
@@ -293,33 +305,12 @@ class Surface:
     @cached_property
     def half_edge_sum(self) -> NDArray[np.int32]:
         """(E,) oriented faces that run along each edge from a to b, less those from b to a: 0 where they cancel."""
-        return self._half_edge_sum(self.orientation)
-
-    def _half_edge_sum(self, orientation: Orientation) -> NDArray[np.int32]:
-        tail, head = ends(self.faces)
-        way = np.where(tail < head, 1, -1).astype(np.int8)
-        if orientation.face_sign is not None:
-            way *= np.repeat(orientation.face_sign, 3)
-        return np.add.reduceat(way[self.edges.order], self.edges.start[:-1], dtype=np.int32)
+        return half_edge_sum(self.faces, self.edges, self.orientation)
 
     @cached_property
     def closed_patches(self) -> Mask:
         """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
-        found = self._file_orientation
-        closed = np.ones(len(found.orientable), bool)
-        odd = self.edges.valence != 2
-        if odd.any():
-            half_edges = self.edges.order[np.repeat(odd, self.edges.valence)]
-            edge = np.repeat(np.flatnonzero(odd), self.edges.valence[odd])
-            patch = found.patch[half_edges // 3].astype(np.int64)
-            key, where, count = np.unique(edge * len(closed) + patch, return_inverse=True, return_counts=True)
-            tail, head = ends(self.faces)
-            way = np.where(tail[half_edges] < head[half_edges], 1.0, -1.0)
-            if found.face_sign is not None:
-                way *= found.face_sign[half_edges // 3]
-            unbalanced = (count != 2) | (np.bincount(where, way) != 0)
-            closed[(key % len(closed))[unbalanced]] = False
-        return closed
+        return closed_patches(self.faces, self.edges, self._file_orientation)
 
     @cached_property
     def inside_out(self) -> Mask:
@@ -358,33 +349,3 @@ class Surface:
         at, where = np.unique(np.concatenate([tail, head]), return_inverse=True)
         count, label = label_graph(len(at), where[: len(tail)], where[len(tail) :])
         return renumber_by_lowest_member(label[where[: len(tail)]], count) if len(at) else (0, half_edges)
-
-
-def _as_components(points: ArrayLike) -> NDArray[np.float64]:
-    given = np.asarray(points)
-    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
-        raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (V, 3)")
-    xyz = np.array(given.T, np.float64, order="C", copy=_copy(given))
-    xyz = xyz.view()  # so that freezing ours leaves the caller's array as it is
-    xyz.setflags(write=False)
-    return xyz
-
-
-def _copy(given: NDArray[Any]) -> bool | None:
-    """Copy what its owner may still change, and the rest only where type or layout ask for it."""
-    return True if given.flags.writeable else None
-
-
-def _as_triangles(faces: ArrayLike, vertices: int) -> Index:
-    given = np.asarray(faces)
-    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
-        raise InputError(f"faces have shape {given.shape} and type {given.dtype}, expected indices of shape (F, 3)")
-    if not len(given):
-        raise InputError("no faces: there is no surface to measure", hint="expected at least one face")
-    if given.min() < 0 or given.max() >= vertices:
-        face, corner = (int(i) for i in np.argwhere((given < 0) | (given >= vertices))[0])
-        raise InputError(
-            f"corner {given[face, corner]} does not exist, expected a vertex index from 0 to {vertices - 1}",
-            place=f"face {face}",
-        )
-    return np.array(given, np.int32, order="C", copy=_copy(given)).view()
