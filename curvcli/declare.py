@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from .errors import UsageError
 
 if TYPE_CHECKING:
-    from .surface import Surface
+    pass
 
 Column = NDArray[np.float64]
 VectorColumn = NDArray[np.float64]  # (3, n), one contiguous row per coordinate
@@ -94,10 +94,15 @@ class Pass:
     provides: tuple[Quantity, ...]
     needs: tuple[str, ...]
 
-    def __call__(self, surface: Surface) -> Any:
-        """Its column on a surface ((V, 3) for a vector), or a dictionary of them if it provides several."""
+    def __call__(self, surface: Any) -> Any:
+        """Its column on a surface ((V, 3) for a vector), or a dictionary of them if it provides several.
+
+        surface: a Surface, a path, a trimesh.Trimesh or a pair (points, faces).
+        """
+        from .loading.surfaces import as_surface
         from .pipeline import evaluate, presented
 
+        surface = as_surface(surface)
         found = evaluate(surface, [quantity.name for quantity in self.provides])
         shown = {q.name: presented(q, found[q.name], surface) for q in self.provides}
         return shown[self.provides[0].name] if len(shown) == 1 else shown
