@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -85,12 +86,17 @@ class Analysis:
     """
 
     def __init__(
-        self, surface: Surface, chosen: list[str], conventions: Conventions, regions: Regions | None = None
+        self,
+        surface: Surface,
+        chosen: list[str],
+        conventions: Conventions,
+        regions: Regions | None = None,
+        checks: Iterable[str] | None = None,
     ) -> None:
         self.surface, self.chosen, self.conventions, self.regions = surface, chosen, conventions, regions
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
-        self._rules = self._applicable_rules()
+        self._rules = self._applicable_rules() if checks is None else [rules[name] for name in checks]
         wanted = {
             *chosen,
             *_ALWAYS,
@@ -102,7 +108,7 @@ class Analysis:
         self.cut: Analysis | None = None
         if regions is not None:
             cut, self.cut_groups = cut_apart(surface, regions)
-            self.cut = Analysis(cut, chosen, conventions)
+            self.cut = Analysis(cut, chosen, conventions, checks=[rule.name for rule in self._rules])
 
     @cached_property
     def _closure(self) -> set[str]:
@@ -231,9 +237,9 @@ def _strain(check: Check) -> float:
 
 
 def plain(value: Any) -> Any:
-    """A number or list for JSON, None where undefined."""
+    """A number or a vector for JSON, None where undefined."""
     if np.ndim(value):
-        return [plain(x) for x in value]
+        return [plain(x) for x in value] if np.isfinite(value).any() else None
     return float(value) if np.isfinite(value) else None
 
 
@@ -247,6 +253,7 @@ def analyze(
     weld: str | float = "auto",
     unit: str | None = None,
     regions: str | NDArray[np.integer[Any]] | None = None,
+    checks: Iterable[str] | None = None,
 ) -> Analysis:
     """Compute curvatures of a surface, its totals and the identities that prove them.
 
@@ -254,7 +261,8 @@ def analyze(
     passes: a preset (`topology`, `core`, `paper`, `all`) or names. area: the cell of `K_density`. mean: whether H is
     κ₁ + κ₂ or their average. orient: `file`, or `outward` to turn closed patches that are inside out; None is what a
     Surface was made with, else `file`. weld: see `curvcli.load`. unit: a label for lengths. regions: a label per face
-    (negative: none), or the name of the file, record or property that holds them.
+    (negative: none), or the name of the file, record or property that holds them. checks: names of the identities to
+    test, whatever they need; None is those whose needs the chosen passes meet.
     Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
     """
     chosen = resolve([passes] if isinstance(passes, str) else passes)
@@ -267,7 +275,20 @@ def analyze(
         if value not in known:
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld)
-    welded = "exact" if weld == "auto" and found.file is not None and found.file.format == "stl" else str(weld)
     named = regions if regions is None or isinstance(regions, str) else "array"
-    conventions = Conventions(mean, area, found.orient, "none" if welded == "auto" else welded, unit, named)
-    return Analysis(found, chosen, conventions, None if regions is None else find_regions(found, regions))
+    conventions = Conventions(mean, area, found.orient, found.file.weld if found.file else "none", unit, named)
+    named_checks = None if checks is None else known_checks(checks)
+    labels = None if regions is None else find_regions(found, regions)
+    return Analysis(found, chosen, conventions, labels, named_checks)
+
+
+def known_checks(names: Iterable[str]) -> list[str]:
+    """The names of identities in the order of the report.
+
+    Errors: UsageError for one that is not known, with the nearest.
+    """
+    wanted = set(names)
+    for name in sorted(wanted - rules.keys()):
+        near = get_close_matches(name, rules, 3, 0.4) or list(rules)
+        raise UsageError(f"unknown check {name!r}; nearest: {', '.join(near)}")
+    return [name for name in rules if name in wanted]

@@ -79,7 +79,11 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
         examples=_some(conflicts),
     )
     without = int(np.count_nonzero(~surface.orientation.orientable))
-    yield Notice("not_orientable", without, "patches have no orientation; signed mean curvature is undefined there")
+    yield Notice(
+        "not_orientable",
+        without,
+        "patches without an orientation, like a Möbius strip; signed mean curvature is undefined there",
+    )
     turned = np.flatnonzero(surface.inside_out)
     yield Notice(
         "inside_out",

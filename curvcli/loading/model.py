@@ -30,6 +30,7 @@ class MeshFile:
     polylines: vertex indices of each OBJ `l` record.
     welded_to: (V,) the row that holds the values of a merged row, -1 for one that holds its own; None without welding.
     path, sha256: where the bytes came from (`-` for a stream) and their hash, None for arrays made in memory.
+    weld: how vertices were merged: `none`, `exact` or a tolerance.
     notices: what was accepted but should be said.
     """
 
@@ -44,6 +45,7 @@ class MeshFile:
     welded_to: NDArray[np.int32] | None = None
     path: str | None = None
     sha256: str | None = None
+    weld: str = "none"
     notices: tuple[Notice, ...] = ()
 
     @property

@@ -79,7 +79,8 @@ def _read(
             pool.submit(_import_polars, len(data))  # while trimesh is imported
         mesh = _through_trimesh(data, kind, weld=weld, max_faces=max_faces)
         check_faces(mesh.polygons, max_faces)
-        return replace(mesh, sha256=digest.result(), notices=(*notices, *mesh.notices))
+        merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
+        return replace(mesh, sha256=digest.result(), weld=merged, notices=(*notices, *mesh.notices))
 
 
 def _import_polars(data: int) -> None:

@@ -250,7 +250,7 @@ def _extras(analysis: Analysis, groups: Groups) -> dict[str, Callable[[int], Any
         found["normals"] = lambda group: Normals(angles["angle_max"][group], angles["angle_mean"][group])
     if columns.keys() >= {"face_area", "H_theta", "K", "K_minus"}:
         polynomial = steiner(surface, groups, columns)
-        rows = [None if None in row[:1] else row for row in _plain(polynomial["coefficients"])]
+        rows = _plain(polynomial["coefficients"])
         found["steiner"] = lambda group: Steiner(rows[group], bool(polynomial["convex"][group]))
     return found
 
@@ -307,8 +307,14 @@ def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
 
 
 def _plain(values: Any) -> list[Any]:
-    """Lists with None for what is not a number, for JSON."""
-    return [
-        [x if math.isfinite(x) else None for x in row] if isinstance(row, list) else row if math.isfinite(row) else None
-        for row in values.tolist()
-    ]
+    """Lists for JSON, with None for what is undefined: a number that is none, a vector without a component."""
+    return [_vector(row) if isinstance(row, list) else _number(row) for row in values.tolist()]
+
+
+def _vector(row: list[float]) -> list[float | None] | None:
+    shown = [_number(x) for x in row]
+    return None if all(x is None for x in shown) else shown
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -25,12 +25,16 @@ def show(analysis: Analysis, verbose: int = 0) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = max(console.width, 100)
-    console.print(f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {_shape(report)}")
+    console.print(
+        f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {_shape(report)}",
+        soft_wrap=not console.is_terminal,
+    )
     for remark in report.warnings:
         hint = f"; {remark.hint}" if remark.hint else ""
         first = f" (first: {', '.join(map(str, remark.examples[:3]))})" if remark.examples else ""
         console.print(
-            f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}{first}{escape(hint)}"
+            f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}{first}{escape(hint)}",
+            soft_wrap=not console.is_terminal,
         )
     console.print(_checks(report.checks, verbose))
     if _proof(report):
