@@ -2,10 +2,25 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import sys
+from collections.abc import Iterator
 
-# Address space that polars' threads reserve before they hold a byte of data.
-_THREADS = 1 << 29
+# Address space that polars' threads and its allocator reserve before they hold a byte of data: at first, and later.
+_FIRST_USE, _LATER_USE, _STACK = 5 << 27, 3 << 26, 1 << 23
+
+# Address space without which importing numpy ends in an abort or in an endless wait of its BLAS.
+NUMPY = 1 << 28
+
+# What libraries say when there is none left, in exceptions of many types.
+_WORDS = (
+    "can't start new thread",
+    "cannot allocate memory",
+    "failed to map segment",
+    "unable to allocate",
+    "out of memory",
+)
 
 
 def require(size: int) -> None:
@@ -17,7 +32,46 @@ def require(size: int) -> None:
 
 def require_polars(data: int) -> None:
     """Errors: MemoryError unless polars can work on this many bytes of data."""
-    require(_THREADS + 2 * data)
+    global _used
+    require((_LATER_USE if _used else _FIRST_USE + (os.cpu_count() or 1) * _STACK) + 2 * data)
+    _used = "polars" in sys.modules
+
+
+_used = False
+
+
+def ran_out(error: BaseException) -> bool:
+    """Whether an exception, or one that led to it, means that there was no memory left.
+
+    Under a limit a thread cannot start, a library cannot be mapped, an import fails, each in its own words; and
+    extensions that do not look at what they were given leave Python with a SystemError.
+    """
+    return any(
+        isinstance(one, MemoryError)
+        or (isinstance(one, OSError) and one.errno == errno.ENOMEM)
+        or (isinstance(one, SystemError) and limited())
+        or any(words in str(one).lower() for words in _WORDS)
+        for one in _causes(error)
+    )
+
+
+def _causes(error: BaseException) -> Iterator[BaseException]:
+    """The exception and those that it was raised from or while handling."""
+    one: BaseException | None = error
+    seen: set[int] = set()
+    while one is not None and id(one) not in seen:
+        seen.add(id(one))
+        yield one
+        one = one.__cause__ or one.__context__
+
+
+def limited() -> bool:
+    """Whether the address space of this process has a limit."""
+    try:
+        import resource
+    except ImportError:
+        return False
+    return resource.getrlimit(resource.RLIMIT_AS)[0] != resource.RLIM_INFINITY
 
 
 def available() -> int | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import CurvcliError, UsageError
+from ..memory import ran_out
 from . import options
 
 if TYPE_CHECKING:
@@ -152,7 +153,7 @@ class Run:
                 except (MemoryError, OSError):
                     raise
                 except Exception as error:
-                    if len(self.meshes) == 1:
+                    if len(self.meshes) == 1 or ran_out(error):
                         raise
                     say(f"{mesh}: {internal(error)}")
                     codes.append(exit_code(error))

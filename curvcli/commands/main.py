@@ -6,14 +6,18 @@ import os
 import sys
 import traceback
 from importlib import import_module
-from typing import NoReturn
+from typing import NoReturn, cast
 
 import click
 
 from .._version import __version__
 from ..errors import CurvcliError, InputError, NoMatchError, OutputError, UsageError
+from ..memory import NUMPY, ran_out, require
+from .config import META, blamed, configure
+from .signals import Ending
+from .streams import complete, refused, settle
 
-COMMANDS = ("analyze", "compare", "curves", "passes", "sample")
+COMMANDS = ("analyze", "check", "compare", "curves", "passes", "sample")
 
 OK, FAILED_CHECK, USAGE, INPUT, OUTPUT, NO_MATCH, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130
 
@@ -49,6 +53,10 @@ class LazyGroup(click.Group):
             if sys.stderr.isatty():
                 click.echo(err=True)  # after the terminal's ^C
             raise click.Abort from None
+        except (click.UsageError, UsageError) as error:
+            if META in ctx.meta:
+                raise blamed(ctx, error) from error
+            raise
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The commands in the order of the help."""
@@ -72,12 +80,21 @@ class LazyGroup(click.Group):
             near = get_close_matches(name, COMMANDS, 1)
             guess = f"; did you mean {near[0]}?" if near else ""
             raise click.UsageError(f"no such command {name!r}, expected one of {', '.join(COMMANDS)}{guess}", ctx)
+        if not ctx.resilient_parsing and not set(args).intersection(ctx.help_option_names):
+            configure(ctx, ctx.params.get("config"), lambda command: self.get_command(ctx, command))
+        require(NUMPY)
         return super().resolve_command(ctx, args)
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, "-V", "--version", message="curvcli %(version)s")
-def cli() -> None:
+@click.option(
+    "--config",
+    metavar="FILE",
+    help="Defaults of options, one table per command; else [tool.curvcli] of the nearest pyproject.toml, or "
+    "curvcli.toml, in this folder or above.",
+)
+def cli(config: str | None) -> None:
     """Curvatures of triangle meshes (OBJ, PLY, STL) that keep their integral relations exactly.
 
     Gauss and mean curvature, areas and Willmore energies at every vertex, after J. M. Sullivan,
@@ -86,6 +103,7 @@ def cli() -> None:
     \b
       curvcli analyze bunny.obj                      a summary with its checks
       curvcli analyze bunny.obj -o k.csv -o k.ply    a table and a coloured mesh
+      curvcli check bunny.obj --require closed       what holds and what fails, as an exit code
       curvcli passes                                 every quantity there is
       curvcli sample torus -o torus.ply              a surface to try it on
     """
@@ -93,37 +111,57 @@ def cli() -> None:
 
 def main() -> NoReturn:
     """Run curvcli and exit with the code of the interface."""
-    code = OK
+    # All our matrices are small: threads would only reserve memory, with many processors more than a limit allows.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    complete()
+    ending = Ending()
+    ending.expect()
     try:
         result = cli.main(standalone_mode=False)
         code = result if isinstance(result, int) else OK
         sys.stdout.flush()
-    except click.exceptions.Exit as finished:
-        code = finished.exit_code
-    except click.UsageError as error:
-        path = error.ctx.command_path if error.ctx else "curvcli"
-        say(f"{error.format_message().rstrip('.')}; `{path} --help` tells more")
-        code = USAGE
-    except click.ClickException as error:
-        say(error.format_message())
-        code = USAGE
-    except CurvcliError as error:
-        say(str(error))
-        code = exit_code(error)
-    except (BrokenPipeError, SystemExit):
-        # Whoever read our output has seen enough (click makes a SystemExit of it, and nothing else here does); keep
-        # Python from complaining about it at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    except (KeyboardInterrupt, click.Abort):
-        say("interrupted")
-        code = INTERRUPTED
-    except MemoryError:
-        say("out of memory; a machine with more memory, or a smaller mesh, is needed")
-        code = INTERNAL
-    except Exception as error:
-        code = INTERNAL
-        say(internal(error))
+    except BaseException as error:
+        code = explain(error) if ending.number is None else interrupted(ending)
+    ending.too_late()
+    settle()
     sys.exit(code)
+
+
+def interrupted(ending: Ending) -> int:
+    """Say so; the exit code."""
+    say("interrupted")
+    return ending.code
+
+
+def explain(error: BaseException) -> int:
+    """Say in one line why the program ends; the exit code."""
+    match error:
+        case click.exceptions.Exit():
+            return error.exit_code
+        case BrokenPipeError() | SystemExit():
+            # Whoever read our output has seen enough (click makes a SystemExit of it, and nothing else here does).
+            return OK
+        case click.UsageError():
+            path = error.ctx.command_path if error.ctx else "curvcli"
+            say(f"{error.format_message().rstrip('.')}; `{path} --help` tells more")
+            return USAGE
+        case click.ClickException():
+            say(error.format_message())
+            return USAGE
+        case CurvcliError():
+            say(str(error))
+            return exit_code(error)
+        case KeyboardInterrupt() | click.Abort():
+            say("interrupted")
+            return INTERRUPTED
+    if refused(error):
+        say(f"stdout: cannot be written: {os.strerror(cast(OSError, error).errno or 0)}")
+        return OUTPUT
+    if ran_out(error):
+        say("out of memory; a machine with more memory, or a smaller mesh, is needed")
+    else:
+        say(internal(error))
+    return INTERNAL
 
 
 def internal(error: BaseException) -> str:
