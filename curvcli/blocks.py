@@ -65,10 +65,14 @@ class Triangles:
         return (self.v, [-x for x in self.w], self.u)[corner]
 
 
+def by_corner(faces: Index) -> NDArray[np.intp]:
+    """(3, n) the corners of some faces, one contiguous row for each, in the type that numpy gathers and scatters by."""
+    return np.array(faces.T, np.intp, order="C")
+
+
 def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
     """Edge vectors, normals and dot products of the given faces, to the last digits also where they are thin."""
-    corners = [faces[:, k] for k in range(3)]
-    p, q, r = ([x[corner] for x in xyz] for corner in corners)
+    p, q, r = ([x.take(corner) for x in xyz] for corner in by_corner(faces))
     u, w = [b - a for a, b in zip(p, q, strict=True)], [c - a for a, c in zip(p, r, strict=True)]
     v = [c - b for b, c in zip(q, r, strict=True)]
     normal = cross(u, w)
@@ -112,7 +116,7 @@ def signed_volumes(surface: Surface, label: Index | None = None) -> Floats:
     for block in face_blocks(surface.n_faces):
         face = faces[block]
         at = base if base.shape[1] == 1 or label is None else base[:, label[block]]
-        p, q, r = ([x[face[:, k]] - b for x, b in zip(xyz, at, strict=True)] for k in range(3))
+        p, q, r = ([x.take(corner) - b for x, b in zip(xyz, at, strict=True)] for corner in by_corner(face))
         volume[block] = dot(p, cross(q, r)) / 6
     return volume
 
@@ -143,7 +147,7 @@ def star_sums(surface: Surface) -> StarSums:
     degenerate = np.zeros(surface.n_faces, bool)
     coincident = np.zeros(n, bool)
     for block in face_blocks(surface.n_faces):
-        face = np.ascontiguousarray(faces[block].T)
+        face = by_corner(faces[block])
         t = triangles(surface.xyz, faces[block])
         sixth = t.twice_area / 6
         face_area[block] = t.twice_area / 2
@@ -187,7 +191,7 @@ def _resum_large_stars(surface: Surface, angle: Floats) -> None:
     angle[vertex[order[start]]] = np.add.reduceat(each[order], start)
 
 
-def _mark_coincident(coincident: Mask, face: Index, t: Triangles) -> None:
+def _mark_coincident(coincident: Mask, face: NDArray[np.intp], t: Triangles) -> None:
     """Mark corners that lie exactly on another corner of their face: their angle there has no meaning."""
     for edge, (a, b) in ((t.u, (0, 1)), (t.v, (1, 2)), (t.w, (0, 2))):
         zero = (edge[0] == 0) & (edge[1] == 0) & (edge[2] == 0)

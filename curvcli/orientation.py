@@ -85,8 +85,19 @@ def _ways(faces: Index, half_edges: Index | slice, orientation: Orientation) -> 
     return way
 
 
-def half_edge_sum(faces: Index, edges: Edges, orientation: Orientation) -> NDArray[np.int32]:
-    """(E,) oriented faces that run along each edge from a to b, less those from b to a: 0 where they cancel."""
+def half_edge_sum(faces: Index, edges: Edges, orientation: Orientation, consistent: bool) -> NDArray[np.int32]:
+    """(E,) oriented faces that run along each edge from a to b, less those from b to a: 0 where they cancel.
+
+    consistent: whether no edge with n_e = 2 has two faces that run along it the same way.
+    """
+    if consistent and orientation.face_sign is None:
+        # Two faces that agree cancel: something is left only at edges with one face or with more than two.
+        left, odd = np.zeros(len(edges), np.int32), edges.valence != 2
+        if odd.any():
+            valence = edges.valence[odd]
+            way = _ways(faces, edges.order[np.repeat(odd, edges.valence)], orientation)
+            left[odd] = np.add.reduceat(way, np.cumsum(valence) - valence, dtype=np.int32)
+        return left
     way = _ways(faces, slice(None), orientation)
     return np.add.reduceat(way[edges.order], edges.start[:-1], dtype=np.int32)
 

@@ -305,7 +305,7 @@ class Surface:
     @cached_property
     def half_edge_sum(self) -> NDArray[np.int32]:
         """(E,) oriented faces that run along each edge from a to b, less those from b to a: 0 where they cancel."""
-        return half_edge_sum(self.faces, self.edges, self.orientation)
+        return half_edge_sum(self.faces, self.edges, self.orientation, self.consistent_winding)
 
     @cached_property
     def closed_patches(self) -> Mask:

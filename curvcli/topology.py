@@ -43,6 +43,8 @@ class Edges:
 
     def pairs(self) -> tuple[Index, Index]:
         """The two half-edges of every edge with n_e = 2."""
+        if (self.valence == 2).all():
+            return self.order[::2], self.order[1::2]
         begin = self.start[:-1][self.valence == 2]
         return self.order[begin], self.order[begin + 1]
 
@@ -55,17 +57,16 @@ class Edges:
 
 def ends(faces: Index) -> tuple[Index, Index]:
     """Tail and head of every half-edge, (3F,) each."""
-    return faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    return faces.ravel(), faces.take([1, 2, 0], axis=1).ravel()
 
 
 def find_edges(faces: Index, vertices: int) -> Edges:
     """Sort the half-edges by their ends with two counting sorts (the transposition of a sparse matrix is one)."""
     tail, head = ends(faces)
     n = len(tail)
-    high = np.maximum(tail, head)
-    by_high = csr_array((np.zeros(n, np.int8), high, np.arange(n + 1, dtype=np.int32)), shape=(n, vertices)).tocsc()
-    low = np.minimum(tail, head)[by_high.indices]
-    by_low = csr_array((by_high.indices, low, by_high.indptr), shape=(vertices, vertices)).tocsc()
+    low, high = np.minimum(tail, head), np.maximum(tail, head, out=head)
+    by_high = csr_array((low, high, np.arange(n + 1, dtype=np.int32)), shape=(n, vertices)).tocsc()
+    by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
     low = np.repeat(np.arange(vertices, dtype=np.int32), np.diff(by_low.indptr))
     first = np.ones(n, bool)
     np.not_equal(by_low.indices[1:], by_low.indices[:-1], out=first[1:])
@@ -134,7 +135,7 @@ def split_stars(faces: Index, edges: Edges, twin: Index, consistent: bool, bound
         return split | _split_by_graph(faces, edges, np.arange(len(faces), dtype=np.int32), vertices)
     # With one winding, turning counterclockwise about a vertex is a partial permutation of its corners: the star is one
     # fan exactly if the walk meets every corner. It starts at the clockwise end of the fan where there is one.
-    turn = twin.reshape(-1, 3)[:, [2, 0, 1]].ravel()
+    turn = twin.reshape(-1, 3).take([2, 0, 1], axis=1).ravel()
     tail = faces.ravel()
     start = np.full(vertices, -1, np.int32)
     start[tail] = np.arange(len(tail), dtype=np.int32)
