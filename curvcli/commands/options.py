@@ -9,8 +9,20 @@ import click
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
+
+def _verbosity(context: click.Context, option: click.Parameter, value: int) -> int:
+    if value and not context.resilient_parsing:
+        from .config import META, tell
+
+        if META in context.meta:
+            tell(context)
+    return value
+
+
 quiet = click.option("-q", "--quiet", is_flag=True, help="Say nothing but errors.")
-verbose = click.option("-v", "--verbose", count=True, help="Say more; -vv shows tracebacks.")
+verbose = click.option(
+    "-v", "--verbose", count=True, callback=_verbosity, help="Say more, such as which file configures; -vv: tracebacks."
+)
 force = click.option("--force", is_flag=True, help="Overwrite outputs that exist.")
 passes = click.option(
     "-p",

@@ -1,0 +1,151 @@
+"""Assertions on a column: `absmax(h_signed) <= 50`."""
+
+from __future__ import annotations
+
+import math
+import operator
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .analysis import Analysis
+from .declare import Quantity
+from .errors import UsageError
+from .report.quantities import public
+from .report.statistics import statistics
+
+STATISTICS = ("min", "max", "absmax", "mean", "area_mean", "sum", "p02", "p98")
+
+OPERATORS: dict[str, Callable[[float, float], bool]] = {
+    "<=": operator.le,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    ">": operator.gt,
+}
+
+_SHAPE = re.compile(r"\s*(\w+)\s*\(\s*(\w+)\s*\)\s*([<>=!]+)\s*([^\s<>=!]+)\s*", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+
+_PLURALS = {"vertex": "vertices", "edge": "edges", "face": "faces"}
+
+
+@dataclass(frozen=True)
+class Assertion:
+    """A statistic of one scalar column, compared with a number; nulls are left out of the statistic."""
+
+    statistic: str
+    quantity: Quantity
+    column: str
+    comparison: str
+    bound: float
+
+    @property
+    def name(self) -> str:
+        """As it is written after --assert."""
+        bound = f"{self.bound:.15g}"
+        bound = bound if float(bound) == self.bound else repr(self.bound)
+        return f"{self.statistic}({self.column}) {self.comparison} {bound}"
+
+    def judge(self, analysis: Analysis) -> tuple[bool, float | None, str]:
+        """Whether it holds, the statistic's value (None where undefined), and both in words."""
+        values, area, used = self._values(analysis)
+        value = self._value(values, area, used)
+        call = f"{self.statistic}({self.column})"
+        if value is None:
+            known = used & ~np.isnan(values)
+            some = f"no double holds it, or its {_PLURALS[self.quantity.on]} have no area"
+            none = f"no {self.quantity.on} has a value"
+            return False, None, f"{call} is undefined: {some if known.any() else none}"
+        held = OPERATORS[self.comparison](value, self.bound)
+        return held, value, f"{call} = {value:.6g}{self._place(analysis, values, used)}"
+
+    def _values(self, analysis: Analysis) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+        """Values of the column, weights for area_mean, and the elements that count."""
+        surface = analysis.surface
+        shown = analysis.column(self.quantity.name)
+        if self.quantity.vector:
+            shown = shown[:, "xyz".index(self.column[-1])]
+        values = shown.astype(np.float64)
+        if self.quantity.on == "vertex":
+            return values, analysis.columns["star_area"], surface.referenced
+        area = analysis.column("area_of_face") if self.quantity.on == "face" else np.ones(len(values))
+        return values, area, np.ones(len(values), bool)
+
+    def _value(self, values: NDArray[np.float64], area: NDArray[np.float64], used: NDArray[np.bool_]) -> float | None:
+        found = statistics(self.quantity, values, area, used, "")
+        value: float | None
+        if self.statistic == "sum":
+            known = values[used & ~np.isnan(values)]
+            with np.errstate(over="ignore", invalid="ignore"):
+                value = float(known.sum()) if len(known) else None
+        elif self.statistic == "absmax":
+            value = None if found.min is None or found.max is None else max(-found.min, found.max)
+        else:
+            value = getattr(found, self.statistic)
+        return value if value is not None and math.isfinite(value) else None
+
+    def _place(self, analysis: Analysis, values: NDArray[np.float64], used: NDArray[np.bool_]) -> str:
+        """Where the extreme value is taken."""
+        if self.statistic not in ("min", "max", "absmax"):
+            return ""
+        shown = np.abs(values) if self.statistic == "absmax" else values
+        shown = np.where(used, shown, np.nan)
+        where = int(np.nanargmin(shown) if self.statistic == "min" else np.nanargmax(shown))
+        edges = analysis.surface.edges
+        name = f"{edges.a[where]}-{edges.b[where]}" if self.quantity.on == "edge" else str(where)
+        return f" at {self.quantity.on} {name}"
+
+
+def columns() -> dict[str, Quantity]:
+    """Every scalar column by its name; where two elements share one, the vertices' comes first."""
+    found: dict[str, Quantity] = {}
+    for quantity in public():
+        alone = () if quantity.vector else (quantity.name,)
+        for column in (*quantity.columns, *alone, *(f"{quantity.name}_{x}" for x in "xyz" if quantity.vector)):
+            found.setdefault(column, quantity)
+    return found
+
+
+def parse(text: str) -> Assertion:
+    """An assertion from `STAT(COLUMN) OP NUMBER`.
+
+    Errors: UsageError that names the part which does not fit, with the nearest names.
+    """
+    match = _SHAPE.fullmatch(text)
+    if match is None:
+        raise UsageError(f"assertion {text!r}: expected STAT(COLUMN) OP NUMBER, such as 'absmax(h_signed) <= 50'")
+    statistic, column, comparison, number = match.groups()
+    _known(text, "statistic", statistic, STATISTICS)
+    if comparison not in OPERATORS:
+        raise UsageError(f"assertion {text!r}: no comparison {comparison!r}, expected one of {' '.join(OPERATORS)}")
+    if not _NUMBER.fullmatch(number) or not math.isfinite(float(number)):
+        raise UsageError(f"assertion {text!r}: {number!r} is not a number that a double holds")
+    quantity = _quantity(text, column)
+    if statistic == "area_mean" and quantity.on == "edge":
+        raise UsageError(f"assertion {text!r}: edges have no area to weigh {column} by; use mean")
+    return Assertion(statistic, quantity, column, comparison, float(number))
+
+
+def _quantity(text: str, column: str) -> Quantity:
+    known = columns()
+    vectors = {stem: q for q in reversed(public()) if q.vector for stem in (q.name, q.stem)}
+    if column in vectors:
+        components = ", ".join(f"{column}_{axis}" for axis in "xyz")
+        raise UsageError(f"assertion {text!r}: {column} is a vector; name one of its components {components}")
+    _known(text, "column", column, known)
+    if known[column].labels:
+        raise UsageError(f"assertion {text!r}: {column} holds words, not numbers")
+    return known[column]
+
+
+def _known(text: str, what: str, name: str, known: Any) -> None:
+    if name not in known:
+        near = get_close_matches(name, known, 3, 0.4) or list(known)[:12]
+        raise UsageError(f"assertion {text!r}: unknown {what} {name!r}; nearest: {', '.join(near)}")

@@ -1,0 +1,215 @@
+"""`curvcli check`: identities, requirements and assertions to an exit code and a report that CI systems read."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..errors import CurvcliError, UsageError
+from ..memory import ran_out
+from . import options
+
+if TYPE_CHECKING:
+    from ..report.check import CheckedMesh, CheckReport
+
+FORMATS = ("text", "json", "junit", "sarif", "github")
+
+# What -o says by its suffix when --format says nothing.
+_SUFFIXES = {".json": "json", ".xml": "junit", ".sarif": "sarif"}
+
+# Failures told on stderr while the report goes to a file.
+_TOLD = 20
+
+
+@click.command("check", short_help="Check identities and requirements: the exit code tells.")
+@click.argument("meshes", metavar="MESH...", nargs=-1)
+@click.option(
+    "--require",
+    metavar="NAME[,NAME]",
+    multiple=True,
+    help="Require more: closed, oriented, outward, connected, convex, genus=N, euler=N, components=N, "
+    "no-unreferenced, no-duplicate-vertices, minimal=TOL, cmc=TOL; repeatable. By default: manifold, "
+    "consistent-winding, no-degenerate, no-duplicate-faces.",
+)
+@click.option(
+    "--allow", metavar="NAME[,NAME]", multiple=True, help="Leave out a requirement or an identity; repeatable."
+)
+@click.option(
+    "--assert",
+    "asserted",
+    metavar="'STAT(COLUMN) OP NUMBER'",
+    multiple=True,
+    help="Compare a column's min, max, absmax, mean, area_mean, sum, p02 or p98 by < <= > >= == or != with a number; "
+    "repeatable.",
+)
+@click.option(
+    "--regions",
+    metavar="FILE|groups|objects|materials|PROPERTY",
+    help="One label per face: every identity is then checked per region too.",
+)
+@options.reading
+@click.option(
+    "--format",
+    "report_format",
+    type=click.Choice(FORMATS),
+    help="Format of the report; by default that of -o's suffix (.json, .xml: junit, .sarif), else text.",
+)
+@click.option("-o", "--output", metavar="FILE", default="-", help="Write the report there instead of to stdout.")
+@click.option("--schema", is_flag=True, help="Print the JSON Schema of the json format and stop.")
+@options.force
+@options.talking
+def command(meshes: tuple[str, ...], schema: bool, **settings: Any) -> int:
+    """Check each MESH; exit with 0 if everything holds and 1 if something fails.
+
+    Checked are the identities that curvatures keep, on the whole and on every component, and what is
+    required of the mesh. A mesh that cannot be read does not stop the rest.
+
+    \b
+      curvcli check bunny.ply
+      curvcli check parts/*.stl --require closed,outward --format junit -o check.xml
+      curvcli check torus.obj --require genus=1 --assert 'absmax(h_signed) <= 50'
+      curvcli check scan.ply --allow manifold,no-degenerate
+    """
+    if schema:
+        from ..report.check import schema as json_schema
+
+        sys.stdout.buffer.write(json_schema())
+        return 0
+    if not meshes:
+        raise click.UsageError("no MESH given", click.get_current_context())
+    return Run(meshes, **settings).all()
+
+
+class Run:
+    """One call of `check`: its options checked before any work, then mesh after mesh."""
+
+    def __init__(
+        self,
+        meshes: tuple[str, ...],
+        *,
+        require: tuple[str, ...],
+        allow: tuple[str, ...],
+        asserted: tuple[str, ...],
+        report_format: str | None,
+        output: str,
+        weld: str,
+        force: bool,
+        quiet: bool,
+        verbose: int,
+        input_format: str | None,
+        max_faces: int | None,
+        max_bytes: int | None,
+        **conventions: Any,
+    ) -> None:
+        from ..gate import plan
+
+        self.meshes, self.conventions = meshes, conventions
+        self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
+        self.weld = options.welding(weld)
+        self.output, self.force, self.quiet, self.verbose = output, force, quiet, verbose
+        self.format = report_format or _SUFFIXES.get(os.path.splitext(output)[1].lower(), "text")
+        self.plan = plan(require, allow, asserted)
+
+    def all(self) -> int:
+        """Check every mesh, write the report; the exit code."""
+        from ..output.atomic import Outputs
+        from ..report.check import report_of
+        from .main import worst
+
+        with Outputs([] if self.output == "-" else [self.output], self.force) as outputs:
+            found = [self.one(mesh) for mesh in self.meshes]
+            report = report_of(self.plan.rules, found, worst([mesh.exit_code for mesh in found]))
+            if self.output == "-":
+                self.show(report)
+            else:
+                with outputs.open(self.output) as stream:
+                    stream.write(self.written(report))
+                self.tell(report)
+        return report.exit_code
+
+    def one(self, mesh: str) -> CheckedMesh:
+        """What came of one mesh; one that cannot be checked is told on stderr at once."""
+        from ..report.check import failed_input
+        from .main import exit_code, internal, say
+
+        try:
+            return self.judged(mesh)
+        except UsageError:
+            raise
+        except CurvcliError as error:
+            say(str(error))
+            return failed_input(mesh, str(error).removeprefix(f"{mesh}: "), exit_code(error))
+        except (MemoryError, OSError):
+            raise
+        except Exception as error:
+            if len(self.meshes) == 1 or ran_out(error):
+                raise
+            say(f"{mesh}: {internal(error)}")
+            return failed_input(mesh, internal(error), exit_code(error))
+
+    def judged(self, mesh: str) -> CheckedMesh:
+        """Load, compute, judge."""
+        from ..analysis import analyze
+        from ..gate import judge
+        from ..loading.surfaces import load
+        from .progress import phase
+
+        with phase(f"reading {mesh}", self.quiet):
+            source = sys.stdin.buffer if mesh == "-" else mesh
+            surface = load(source, weld=self.weld, orient=self.conventions["orient"], **self.limits)
+        with phase(f"checking {mesh}", self.quiet):
+            analysis = analyze(
+                surface,
+                self.plan.passes or ["topology"],
+                weld=self.weld,
+                checks=self.plan.identities,
+                **self.conventions,
+            )
+            return judge(analysis, self.plan, mesh)
+
+    def show(self, report: CheckReport) -> None:
+        """The report on stdout; as text for people, unless everything is to be quiet."""
+        if self.format != "text":
+            sys.stdout.buffer.write(self.written(report))
+        elif not self.quiet and any(mesh.status != "error" for mesh in report.meshes):
+            from ..report.check_text import show
+
+            show(report, self.verbose)
+
+    def written(self, report: CheckReport) -> bytes:
+        """The report in the chosen format."""
+        return _writer(self.format, self.verbose)(report)
+
+    def tell(self, report: CheckReport) -> None:
+        """What failed, on stderr, while the report is in a file."""
+        from ..report.check import sentence
+        from .main import say
+
+        failed = [sentence(mesh, one) for mesh in report.meshes for one in mesh.outcomes if one.status == "fail"]
+        if not self.quiet:
+            for line in failed[:_TOLD]:
+                say(line)
+            if len(failed) > _TOLD:
+                say(f"{len(failed) - _TOLD:,} more failures are in {self.output}")
+
+
+def _writer(report_format: str, verbose: int) -> Callable[[CheckReport], bytes]:
+    """The function that writes a format."""
+    match report_format:
+        case "json":
+            from ..report.check import write_json as writer
+        case "junit":
+            from ..report.junit import write_junit as writer
+        case "sarif":
+            from ..report.sarif import write_sarif as writer
+        case "github":
+            from ..report.github import write_github as writer
+        case _:
+            from ..report.check_text import write_text
+
+            return lambda report: write_text(report, verbose)
+    return writer

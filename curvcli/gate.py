@@ -1,0 +1,155 @@
+"""The gate: which identities, requirements and assertions a mesh has to pass, and what came of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import cast
+
+from . import assertions, requirements
+from .analysis import Analysis
+from .assertions import Assertion
+from .checks import Check, rules
+from .errors import UsageError
+from .pipeline import load_passes
+from .report.check import (
+    ASSERTION,
+    FAIL,
+    IDENTITY,
+    INPUT,
+    NOT_APPLICABLE,
+    PASS,
+    REQUIREMENT,
+    CheckedMesh,
+    Outcome,
+    Rule,
+    printable,
+)
+from .report.model import Remark, Value
+from .requirements import Requirement
+
+# What a failing identity says is not zero (value less expected), or too large (the residual).
+_GAPS = {
+    "gauss_bonnet": "ΣK + Σκ_g − 2πχ",
+    "gauss_bonnet_combinatorial": "ΣK_comb − 2πχ",
+    "fenchel": "2π − Σψ",
+    "holonomy": "rotation − K_p (mod 2π)",
+    "total_absolute_curvature": "2π(2 + 2g) − ΣK⁺ − ΣK⁻",
+    "force_balance": "ΣH_p − Ση|e|",
+    "torque_balance": "Σp × H_p − Σm × η|e|",
+    "position_balance": "Σp·H_p + 2 area − Σm·η|e|",
+    "vector_area": "ΣA_p − ½Σ a × b",
+    "area_gradient": "Σp·∇_p area − 2 area",
+    "volume": "Σp·A_p − 3 vol",
+    "first_variation": "gradient − central difference, in units of its error bound",
+    "dirichlet": "E(id) − area",
+}
+
+READABLE = "The mesh can be read and is a surface"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is checked of every mesh."""
+
+    identities: tuple[str, ...]
+    requirements: tuple[Requirement, ...]
+    assertions: tuple[Assertion, ...]
+
+    @property
+    def passes(self) -> list[str]:
+        """The vertex columns that the assertions name."""
+        return [one.quantity.name for one in self.assertions if one.quantity.on == "vertex"]
+
+    @property
+    def rules(self) -> list[Rule]:
+        """Everything that is checked, with what a pass proves."""
+        return [
+            Rule("input", INPUT, READABLE),
+            *(Rule(name, IDENTITY, _statement(name)) for name in self.identities),
+            *(Rule(one.name, REQUIREMENT, one.kind.statement) for one in self.requirements),
+            *(Rule(one.name, ASSERTION, f"{one.name}, nulls left out") for one in self.assertions),
+        ]
+
+
+def plan(require: Iterable[str] = (), allow: Iterable[str] = (), asserted: Iterable[str] = ()) -> Plan:
+    """Every identity and the default requirements, plus `require` and `asserted`, without what is allowed to fail.
+
+    require, allow: names or comma lists of names. asserted: `STAT(COLUMN) OP NUMBER`.
+    Errors: UsageError for an unknown name, with the nearest.
+    """
+    load_passes()  # plug-ins may bring identities of their own
+    known = [*requirements.kinds, *rules]
+    allowed = {part.strip() for text in allow for part in text.split(",")}
+    for name in sorted(allowed.difference(known)):
+        near = get_close_matches(name, known, 3, 0.4) or known
+        raise UsageError(f"cannot allow {name!r}: no requirement or identity is called so; nearest: {', '.join(near)}")
+    wanted = requirements.parse([*requirements.DEFAULT, *require])
+    return Plan(
+        tuple(name for name in rules if name not in allowed),
+        tuple(one for one in wanted if one.kind.name not in allowed),
+        tuple(dict.fromkeys(assertions.parse(text) for text in asserted)),
+    )
+
+
+def judge(analysis: Analysis, chosen: Plan, path: str) -> CheckedMesh:
+    """Every check of the plan on an analysis that tested the plan's identities."""
+    outcomes = [
+        *(_of_identity(check) for check in analysis.checks),
+        *(_of_requirement(one, analysis) for one in chosen.requirements),
+        *(_of_assertion(one, analysis) for one in chosen.assertions),
+    ]
+    failed = any(outcome.status == FAIL for outcome in outcomes)
+    file, conventions = analysis.surface.file, analysis.conventions
+    return CheckedMesh(
+        path,
+        file.sha256 if file is not None else None,
+        FAIL if failed else PASS,
+        1 if failed else 0,
+        {key: getattr(conventions, key) for key in ("mean", "area", "orient", "weld", "unit", "regions")},
+        outcomes,
+        [Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
+    )
+
+
+def _of_identity(check: Check) -> Outcome:
+    message = {PASS: _statement(check.name), NOT_APPLICABLE: check.detail}.get(check.status) or _gap(check)
+    return Outcome(
+        check.name,
+        IDENTITY,
+        printable(check.scope),
+        check.status,
+        printable(message),
+        cast(Value, check.value),
+        cast(Value, check.expected),
+        check.residual,
+        check.tolerance,
+    )
+
+
+def _gap(check: Check) -> str:
+    """What a failing identity found: `ΣK + Σκ_g − 2πχ = 3.14159 (allowed 2e-11); χ = 2`."""
+    name = _GAPS.get(check.name, "residual")
+    found, sides = check.residual, (check.value, check.expected)
+    if isinstance(sides[0], float) and isinstance(sides[1], float) and abs(sides[0] - sides[1]) == found:
+        found = sides[0] - sides[1]
+    elif check.name in _GAPS:
+        name = f"|{name}|"
+    size = "undefined" if found is None else f"{found:.5g}"
+    bound = "undefined" if check.tolerance is None else f"{check.tolerance:.1g}"
+    return f"{name} = {size} (allowed {bound})" + (f"; {check.detail}" if check.detail else "")
+
+
+def _statement(name: str) -> str:
+    return rules[name].statement.split("\n\n")[0].replace("\n", " ").rstrip(".")
+
+
+def _of_requirement(one: Requirement, analysis: Analysis) -> Outcome:
+    problem = one.problem(analysis)
+    return Outcome(one.name, REQUIREMENT, "whole", FAIL if problem else PASS, problem or one.kind.statement)
+
+
+def _of_assertion(one: Assertion, analysis: Analysis) -> Outcome:
+    held, value, message = one.judge(analysis)
+    return Outcome(one.name, ASSERTION, "whole", PASS if held else FAIL, message, value, one.bound)

@@ -1,0 +1,88 @@
+"""The outcome of `curvcli check` for people: what fails first, one line each, then what holds."""
+
+from __future__ import annotations
+
+from io import StringIO
+from typing import TextIO
+
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from .check import ERROR, FAIL, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, printable, sentence
+
+_MARKS = {
+    PASS: "[green]pass[/green]",
+    FAIL: "[bold red]FAIL[/bold red]",
+    ERROR: "[bold red]ERROR[/bold red]",
+    NOT_APPLICABLE: "[dim]n/a[/dim]",
+}
+_ORDER = (ERROR, FAIL, PASS, NOT_APPLICABLE)
+
+
+def write_text(report: CheckReport, verbose: int = 0) -> bytes:
+    """The same as plain text."""
+    stream = StringIO()
+    show(report, verbose, stream)
+    return stream.getvalue().encode("utf-8", "backslashreplace")
+
+
+def show(report: CheckReport, verbose: int = 0, stream: TextIO | None = None) -> None:
+    """Print the report, to stdout unless told otherwise; rich where that is a terminal, plain text elsewhere."""
+    console = Console(file=stream, highlight=False)
+    if not console.is_terminal:
+        console.width = max(console.width, 100)
+    for mesh in report.meshes:
+        for outcome in mesh.trouble:
+            # Never folded: one line, one failure, for grep and for eyes.
+            console.print(f"{_MARKS[outcome.status]} {escape(sentence(mesh, outcome))}", soft_wrap=True)
+    for mesh in report.meshes:
+        if verbose:
+            for remark in mesh.warnings:
+                text = f"{printable(mesh.path)}: {remark.code}: {remark.count:,} {printable(remark.message)}"
+                console.print(f"[yellow]warning[/yellow] {escape(text)}", soft_wrap=True)
+        if (verbose or len(report.meshes) == 1) and mesh.status != ERROR:
+            console.print(_outcomes(mesh))
+    if len(report.meshes) > 1:
+        console.print(_meshes(report))
+    console.print(escape(summary(report)), soft_wrap=True)
+    if any(mesh.status == PASS for mesh in report.meshes) and any(rule.name == "gauss_bonnet" for rule in report.rules):
+        console.print("[dim]Gauss–Bonnet certifies the curvatures and χ, not that the mesh is sound.[/dim]")
+
+
+def summary(report: CheckReport) -> str:
+    """How many meshes and checks passed, in one line."""
+    total = len(report.meshes)
+    passed = sum(mesh.status == PASS for mesh in report.meshes)
+    outcomes = [outcome for mesh in report.meshes for outcome in mesh.outcomes if outcome.kind != INPUT]
+    counts = {status: sum(outcome.status == status for outcome in outcomes) for status in _ORDER}
+    meshes = (
+        f"{passed:,} of {total:,} meshes pass" if total > 1 else f"the mesh {'passes' if passed else 'does not pass'}"
+    )
+    return f"{meshes}: {counts[PASS]:,} checks hold, {counts[FAIL]:,} fail, {counts[NOT_APPLICABLE]:,} do not apply"
+
+
+def _outcomes(mesh: CheckedMesh) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for header in ("check", "scope", "status"):
+        table.add_column(header, no_wrap=True)
+    table.add_column(printable(mesh.path), overflow="fold")
+    for outcome in sorted(mesh.outcomes, key=lambda outcome: _ORDER.index(outcome.status)):
+        cells = (escape(printable(text)) for text in (outcome.name, outcome.scope, outcome.message))
+        name, scope, message = cells
+        table.add_row(name, scope, _MARKS[outcome.status], message)
+    return table
+
+
+def _meshes(report: CheckReport) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    table.add_column("mesh", overflow="fold")
+    table.add_column("status", no_wrap=True)
+    for header in ("hold", "fail", "do not apply", "warnings"):
+        table.add_column(header, justify="right", no_wrap=True)
+    for mesh in sorted(report.meshes, key=lambda mesh: _ORDER.index(mesh.status)):
+        cells = [f"{mesh.count(status):,}" for status in (PASS, FAIL, NOT_APPLICABLE)]
+        row = ["", "", "", ""] if mesh.status == ERROR else [*cells, f"{len(mesh.warnings):,}"]
+        table.add_row(escape(printable(mesh.path)), _MARKS[mesh.status], *row)
+    return table

@@ -1,0 +1,98 @@
+"""What a requirement is: a named test that returns what is wrong, and how --require spells it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Literal
+
+from ..analysis import Analysis
+from ..errors import UsageError
+
+Test = Callable[..., str]
+Number = Literal["", "N", "TOL"]
+
+# Required of every mesh unless allowed to be missing.
+DEFAULT = ("manifold", "consistent-winding", "no-degenerate", "no-duplicate-faces")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One name of --require: its test returns what is wrong, or nothing.
+
+    number: what stands behind the equals sign, `N` (a whole number), `TOL` (not negative) or nothing at all.
+    """
+
+    name: str
+    test: Test
+    number: Number
+    statement: str
+
+    @property
+    def usage(self) -> str:
+        """As it is written after --require."""
+        return f"{self.name}={self.number}" if self.number else self.name
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """A kind with its number."""
+
+    kind: Kind
+    value: float | None = None
+
+    @property
+    def name(self) -> str:
+        """As it is written after --require, such as `genus=1`."""
+        return self.kind.name if self.value is None else f"{self.kind.name}={self.value!r}"
+
+    def problem(self, analysis: Analysis) -> str:
+        """What is wrong, with the first place; empty where the requirement is met."""
+        return self.kind.test(analysis) if self.value is None else self.kind.test(analysis, self.value)
+
+
+kinds: dict[str, Kind] = {}
+
+
+def requirement(name: str, number: Number = "") -> Callable[[Test], Test]:
+    """Register a requirement; the function's docstring says what it promises."""
+
+    def register(test: Test) -> Test:
+        kinds[name] = Kind(name, test, number, (test.__doc__ or "").strip().rstrip("."))
+        return test
+
+    return register
+
+
+def parse(texts: Iterable[str]) -> list[Requirement]:
+    """Requirements from comma lists such as `closed,genus=1`, each once, in the order given.
+
+    Errors: UsageError for an unknown name (with the nearest), a missing, superfluous or impossible number.
+    """
+    found: dict[Requirement, None] = {}
+    for text in texts:
+        for part in text.split(","):
+            found[_parse_one(part.strip())] = None
+    return list(found)
+
+
+def _parse_one(text: str) -> Requirement:
+    name, equals, number = (part.strip() for part in text.partition("="))
+    kind = kinds.get(name)
+    if kind is None:
+        near = get_close_matches(name, kinds, 3, 0.4) or [one.usage for one in kinds.values()]
+        raise UsageError(f"unknown requirement {name!r}; nearest: {', '.join(near)}")
+    if not kind.number:
+        if equals:
+            raise UsageError(f"requirement {text}: {name} takes no number")
+        return Requirement(kind)
+    wanted = "a whole number" if kind.number == "N" else "a tolerance of 0 or more"
+    try:
+        value = int(number) if kind.number == "N" else float(number)
+    except ValueError:
+        raise UsageError(f"requirement {text}: expected {kind.usage} with {wanted}") from None
+    if kind.number == "TOL" and not 0 <= value < math.inf:
+        raise UsageError(f"requirement {text}: expected {kind.usage} with {wanted}")
+    return Requirement(kind, value)

@@ -1,0 +1,50 @@
+"""What a file should be free of."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..analysis import Analysis
+from ..census import duplicate_faces, duplicate_vertices
+from .base import requirement
+from .places import counted, faces, joined, vertices
+
+# Faces that the reader or the surface dropped, which no later count sees.
+_DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
+
+
+@requirement("no-degenerate")
+def no_degenerate(analysis: Analysis) -> str:
+    """Every face has an area, and none had to be dropped."""
+    surface = analysis.surface
+    dropped = [
+        counted(notice.count, f"face {what}", f"faces {what}", f"face {notice.examples[0]}")
+        if notice.examples
+        else f"{notice.count:,} faces {what}"
+        for notice in surface.notices
+        if (what := _DROPPED.get(notice.code))
+    ]
+    return joined(faces(surface, np.flatnonzero(analysis.columns["degenerate_face"]), "without area"), *dropped)
+
+
+@requirement("no-duplicate-faces")
+def no_duplicate_faces(analysis: Analysis) -> str:
+    """No two faces have the same corners."""
+    return faces(analysis.surface, duplicate_faces(analysis.surface), "with the corners of an earlier one")
+
+
+@requirement("no-unreferenced")
+def no_unreferenced(analysis: Analysis) -> str:
+    """Every vertex belongs to a face."""
+    surface = analysis.surface
+    loose = ~surface.referenced
+    if surface.file is not None and surface.file.welded_to is not None:
+        loose &= surface.file.welded_to < 0
+    return vertices(np.flatnonzero(loose), "that no face uses", "that no face uses")
+
+
+@requirement("no-duplicate-vertices")
+def no_duplicate_vertices(analysis: Analysis) -> str:
+    """No two vertices of faces are at the same position."""
+    twice = duplicate_vertices(analysis.surface)
+    return vertices(twice, "at the position of an earlier one", "at the position of an earlier one")

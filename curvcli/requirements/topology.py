@@ -1,0 +1,97 @@
+"""What hangs together how: boundary, manifoldness, orientation, pieces and handles."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..analysis import Analysis
+from ..census import census, classify
+from .base import requirement
+from .places import counted, edges, face_name, joined, vertices
+
+
+@requirement("closed")
+def closed(analysis: Analysis) -> str:
+    """No edge has only one face."""
+    return edges(analysis.surface, analysis.surface.boundary_edges, "with only one face")
+
+
+@requirement("manifold")
+def manifold(analysis: Analysis) -> str:
+    """Every edge has at most two faces and every star is one fan."""
+    surface = analysis.surface
+    split = np.flatnonzero(surface.split_stars)
+    return joined(
+        edges(surface, surface.nonmanifold_edges, "with more than two faces"),
+        vertices(split, "whose star is not one fan", "whose stars are not one fan"),
+    )
+
+
+@requirement("oriented")
+def oriented(analysis: Analysis) -> str:
+    """Every patch has an orientation, whether or not the file winds it so."""
+    surface = analysis.surface
+    lost = ~surface.orientation.orientable
+    faces = np.flatnonzero(lost[surface.orientation.patch])
+    patches = int(np.count_nonzero(lost))
+    first = face_name(surface, faces[0]) if len(faces) else ""
+    return counted(patches, "patch without an orientation", "patches without an orientation", first) if patches else ""
+
+
+@requirement("consistent-winding")
+def consistent_winding(analysis: Analysis) -> str:
+    """Neighbouring faces run along their common edge opposite ways."""
+    return edges(analysis.surface, analysis.surface.winding_conflicts, "along which both faces run the same way")
+
+
+@requirement("outward")
+def outward(analysis: Analysis) -> str:
+    """Every closed patch has positive volume as the file winds it; open ones have no outside."""
+    surface = analysis.surface
+    turned = np.flatnonzero(surface.inside_out)
+    if len(turned):
+        first = face_name(surface, np.flatnonzero(surface.orientation.patch == turned[0])[0])
+        return counted(len(turned), "closed patch is inside out", "closed patches are inside out", first)
+    if not (surface.closed_patches & surface.orientation.orientable).any():
+        return "no patch is closed and orientable, so that none has an outside"
+    return ""
+
+
+@requirement("connected")
+def connected(analysis: Analysis) -> str:
+    """There is one component."""
+    return components(analysis, 1)
+
+
+@requirement("genus", "N")
+def genus(analysis: Analysis, wanted: float) -> str:
+    """The genus, summed over the components, is N."""
+    surface = analysis.surface
+    found = float(classify(surface, surface.whole).genus[0])
+    if math.isnan(found):
+        why = manifold(analysis) or oriented(analysis)
+        return f"the genus is undefined, expected {wanted}: {why}"
+    return "" if found == wanted else f"the genus is {round(found)}, expected {wanted}"
+
+
+@requirement("euler", "N")
+def euler(analysis: Analysis, wanted: float) -> str:
+    """The Euler characteristic V − E + F is N."""
+    counts = census(analysis.surface, analysis.surface.whole)
+    found = int(counts.euler_characteristic[0])
+    return "" if found == wanted else f"χ = {found}, expected {wanted}"
+
+
+@requirement("components", "N")
+def components(analysis: Analysis, wanted: float) -> str:
+    """There are N components."""
+    surface = analysis.surface
+    found = surface.components.count
+    if found == wanted:
+        return ""
+    if found == 1:
+        return f"1 component, expected {wanted}"
+    second = face_name(surface, np.flatnonzero(surface.components.face == 1)[0])
+    return f"{found:,} components, expected {wanted} (the second starts at {second})"
