@@ -13,11 +13,12 @@ import click
 from .._version import __version__
 from ..errors import CurvcliError, InputError, NoMatchError, OutputError, UsageError
 from ..memory import NUMPY, ran_out, require
+from .allocation import keep_memory
 from .config import META, blamed, configure
 from .signals import Ending
 from .streams import complete, refused, settle
 
-COMMANDS = ("analyze", "check", "compare", "curves", "passes", "sample")
+COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample")
 
 OK, FAILED_CHECK, USAGE, INPUT, OUTPUT, NO_MATCH, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130
 
@@ -83,6 +84,7 @@ class LazyGroup(click.Group):
         if not ctx.resilient_parsing and not set(args).intersection(ctx.help_option_names):
             configure(ctx, ctx.params.get("config"), lambda command: self.get_command(ctx, command))
         require(NUMPY)
+        keep_memory()
         return super().resolve_command(ctx, args)
 
 

@@ -1,0 +1,111 @@
+"""A batch from its plan to its summary, whoever does the work."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass
+
+import msgspec
+
+from .._version import __version__
+from ..loading.content import shown
+from .manifest import Manifest
+from .model import Item, Row, Settings
+from .outcome import INTERNAL, OUTPUT
+from .places import hash_of, is_url, read_url
+from .summary import write_summary
+
+_WRITTEN = ("ok", "failed_checks")
+_AGAIN = ("timeout", "crashed", "out_of_memory")
+
+Engine = Callable[[Sequence[Item], Settings], Iterator[Row]]
+
+
+@dataclass
+class Batch:
+    """The meshes of a plan and what is known of each: `todo` after a resume, `rows` in the order of the plan.
+
+    strict: a failed check gives exit code 1 to its mesh.
+    """
+
+    items: Sequence[Item]
+    settings: Settings
+    folder: str
+    manifest: Manifest
+    strict: bool = False
+
+    def __post_init__(self) -> None:
+        self._options = self.settings.digest()
+        self._paths = {item.path: item for item in self.items}
+        self._rows: dict[str, Row] = {}
+        _sweep(self.items)
+
+    def todo(self) -> list[Item]:
+        """The meshes that are not done, or changed, or whose outputs are gone."""
+        with ThreadPoolExecutor() as pool:
+            done = list(pool.map(self._done, self.items))
+        for item, row in zip(self.items, done, strict=True):
+            if row is not None:
+                self._rows[item.path] = self._coded(row)
+        return [item for item, row in zip(self.items, done, strict=True) if row is None]
+
+    def work(self, engine: Engine, todo: Sequence[Item]) -> Iterator[Row]:
+        """Do what is to be done; every row is on the disk before it is handed on."""
+        for row in engine(todo, self.settings):
+            row.options = self._options
+            if row.status in _WRITTEN:
+                row.outputs = self._shown(self._paths[row.path])
+            row = self.manifest.append(self._coded(row))
+            self._rows[row.path] = row
+            yield row
+
+    @property
+    def rows(self) -> list[Row]:
+        """What has ended, in the order of the plan."""
+        return [self._rows[item.path] for item in self.items if item.path in self._rows]
+
+    def summarise(self) -> None:
+        """Write the summary of what has ended."""
+        write_summary(self.folder, self.rows)
+
+    def _done(self, item: Item) -> Row | None:
+        """The row of an earlier run if nothing has changed; what may go better this time is done again."""
+        row = self.manifest.rows.get(item.path)
+        if row is None or (row.options, row.version) != (self._options, __version__):
+            return None
+        if row.status in _AGAIN or row.exit_code in (OUTPUT, INTERNAL) or row.sha256 is None:
+            return None
+        written = row.status in _WRITTEN
+        if written and not (row.outputs == self._shown(item) and all(os.path.isfile(one) for _, one in item.outputs)):
+            return None
+        return row if row.sha256 == _hash(item) else None
+
+    def _coded(self, row: Row) -> Row:
+        code = int(self.strict) if row.status == "failed_checks" else row.exit_code
+        return msgspec.structs.replace(row, exit_code=code)
+
+    def _shown(self, item: Item) -> list[str]:
+        return [shown(os.path.relpath(path, self.folder)).replace(os.sep, "/") for _, path in item.outputs]
+
+
+def _hash(item: Item) -> str | None:
+    if item.content is not None:
+        return hashlib.sha256(item.content).hexdigest()
+    if is_url(item.place):
+        with suppress(Exception):
+            return hashlib.sha256(read_url(item.place, None)).hexdigest()
+        return None
+    return hash_of(item.place)
+
+
+def _sweep(items: Sequence[Item]) -> None:
+    """Remove what a run that was killed left half-written; the lock on the manifest says that nobody writes now."""
+    for folder in {os.path.dirname(path) for item in items for _, path in item.outputs}:
+        for part in glob.glob(os.path.join(glob.escape(folder), ".curvcli-*.part")):
+            with suppress(OSError):
+                os.unlink(part)

@@ -1,0 +1,135 @@
+"""The engine of a cluster: the same workers, each held by a thread of a Dask worker."""
+
+from __future__ import annotations
+
+import threading
+import uuid
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from typing import Any
+
+from .._version import __version__
+from ..errors import CurvcliError, MissingExtraError, UsageError
+from .model import Item, Limits, Row, Settings
+from .outcome import lost
+from .processes import ONE_THREAD, Worker
+
+_WAIT = 30.0
+
+
+class SchedulerLostError(CurvcliError):
+    """A cluster that went away while it worked."""
+
+
+def connect(scheduler: str, limits: Limits) -> Callable[[Sequence[Item], Settings], Iterator[Row]]:
+    """The engine that works on the cluster at an address, or on `local:N` Dask workers of this machine.
+
+    A Dask worker that is killed costs its meshes a second try elsewhere; only a mesh that ends several of them is given
+    up. Workers must see the folder of the outputs, and have this very version of curvcli.
+    Errors: MissingExtraError without Dask, UsageError for an address where no scheduler or no worker answers, and for
+    workers with another version.
+    """
+    try:
+        import distributed  # noqa: F401
+    except ImportError:
+        raise MissingExtraError(f"--scheduler {scheduler}: needs Dask; `pip install 'curvcli[dask]'`") from None
+    if scheduler.startswith("local:"):
+        count = scheduler.removeprefix("local:")
+        if not count.isdecimal() or int(count) < 1:
+            raise UsageError(f"--scheduler {scheduler}: expected local:N with a number of workers")
+    elif "://" not in scheduler:
+        raise UsageError(f"--scheduler {scheduler}: expected an address such as tcp://host:8786, or local:N")
+
+    def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
+        if items:
+            yield from _run(items, settings, limits, scheduler)
+
+    return engine
+
+
+def _run(items: Sequence[Item], settings: Settings, limits: Limits, scheduler: str) -> Iterator[Row]:
+    from distributed import as_completed
+
+    with ExitStack() as stack:
+        client = _client(stack, scheduler)
+        run = uuid.uuid4().hex
+        futures = {
+            client.submit(in_worker, item, settings, limits, key=f"curvcli-{run}-{index}", pure=False): item
+            for index, item in enumerate(items)
+        }
+        for future in as_completed(list(futures)):
+            item = futures.pop(future)
+            yield _row(future, item, limits, scheduler)
+            future.release()
+
+
+def _client(stack: ExitStack, scheduler: str) -> Any:
+    from distributed import Client, LocalCluster
+
+    if scheduler.startswith("local:"):
+        count = int(scheduler.removeprefix("local:"))
+        cluster = LocalCluster(
+            n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None, env=ONE_THREAD
+        )
+        client = stack.enter_context(Client(stack.enter_context(cluster)))
+    else:
+        try:
+            client = stack.enter_context(Client(scheduler, timeout=_WAIT, set_as_default=False))
+        except (OSError, TimeoutError, ValueError) as error:
+            raise UsageError(f"--scheduler {scheduler}: no scheduler answers ({error})") from None
+    try:
+        client.wait_for_workers(1, timeout=_WAIT)
+    except TimeoutError:
+        raise UsageError(f"--scheduler {scheduler}: it has no workers; start one with `dask worker`") from None
+    _check_versions(client, scheduler)
+    return client
+
+
+def _check_versions(client: Any, scheduler: str) -> None:
+    """Refuse workers that would compute with something else than we do."""
+    found = client.run(_version, on_error="return")
+    others = {str(version) for version in found.values()} - {__version__}
+    if others:
+        raise UsageError(
+            f"--scheduler {scheduler}: curvcli {__version__} here, {', '.join(sorted(others))} on the workers; "
+            "install the same version on all"
+        )
+    try:
+        client.get_versions(check=True)
+    except ValueError as error:
+        lines = " ".join(str(error).split())
+        raise UsageError(f"--scheduler {scheduler}: workers differ from this machine: {lines}") from None
+
+
+def _version() -> str:
+    return __version__
+
+
+def _row(future: Any, item: Item, limits: Limits, scheduler: str) -> Row:
+    from concurrent.futures import CancelledError
+
+    from distributed.scheduler import KilledWorker
+
+    try:
+        row: Row = future.result()
+    except KilledWorker:
+        return lost(item.path, -9, limits, late=False)
+    except (CancelledError, OSError) as error:
+        raise SchedulerLostError(f"--scheduler {scheduler}: is gone ({error}); --resume goes on") from error
+    return row
+
+
+_mine = threading.local()
+
+
+def in_worker(item: Item, settings: Settings, limits: Limits) -> Row:
+    """One mesh on a Dask worker, in a process beside it, so that limits hold and a crash hits nobody else.
+
+    Each thread of the Dask worker keeps its process for the next mesh; the process ends when the Dask worker does.
+    """
+    if getattr(_mine, "limits", None) != limits:
+        if hasattr(_mine, "worker"):
+            _mine.worker.end()
+        _mine.worker, _mine.limits = Worker(limits), limits
+    row: Row = _mine.worker.run(item, settings)
+    return row

@@ -1,0 +1,100 @@
+"""The manifest: one line of JSON per mesh, on the disk as soon as the mesh ends, whatever happens to us afterwards."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator
+from types import TracebackType
+
+import msgspec
+
+from ..errors import OutputError
+from ..loading.content import shown
+from .model import Row
+
+NAME = "manifest.jsonl"
+
+
+class Manifest:
+    """The manifest of a folder, open for one batch: `rows` of earlier runs by path, and `append`.
+
+    resume: keep what is there and take up a line that was torn off by the end of an earlier run. Without it and without
+    `force` the folder must be empty or not there yet.
+    Errors: OutputError for a folder that holds something else, that cannot be written, or that another batch uses.
+    """
+
+    def __init__(self, folder: str, *, resume: bool = False, force: bool = False):
+        self.path = os.path.join(folder, NAME)
+        self.rows: dict[str, Row] = {}
+        with _explained(folder):
+            os.makedirs(folder, exist_ok=True)
+            _check(folder, resume, force)
+            descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o666)
+            self._stream = os.fdopen(descriptor, "r+b", buffering=0)
+            try:
+                self._lock()
+                if resume:
+                    self._stream.truncate(self._read())
+                else:
+                    self._stream.truncate(0)
+                self._stream.seek(0, os.SEEK_END)
+            except BaseException:
+                self._stream.close()
+                raise
+
+    def __enter__(self) -> Manifest:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._stream.close()
+
+    def append(self, row: Row) -> Row:
+        """Write a row through to the disk; the row as a later run will read it."""
+        line = msgspec.json.encode(row)
+        with _explained(self.path):
+            # One write, so that a line is there or torn, never mixed; a full disk may take a part of it.
+            rest = memoryview(line + b"\n")
+            while rest:
+                rest = rest[self._stream.write(rest) :]
+            os.fsync(self._stream.fileno())
+        self.rows[row.path] = msgspec.json.decode(line, type=Row)
+        return self.rows[row.path]
+
+    def _read(self) -> int:
+        """Read the rows, the last of each mesh stands; the length up to the end of the last whole line."""
+        content = self._stream.read()
+        end = content.rfind(b"\n") + 1
+        for line in content[:end].splitlines():
+            # A line that a failing disk damaged tells nothing of its mesh, which is then done again.
+            with contextlib.suppress(msgspec.MsgspecError, UnicodeDecodeError):
+                row = msgspec.json.decode(line, type=Row)
+                self.rows[row.path] = row
+        return end
+
+    def _lock(self) -> None:
+        with contextlib.suppress(ImportError):
+            import fcntl
+
+            try:
+                fcntl.flock(self._stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise OutputError(f"{shown(self.path)}: another batch is writing it; wait for its end") from None
+
+
+def _check(folder: str, resume: bool, force: bool) -> None:
+    there = os.listdir(folder)
+    if resume and there and NAME not in there and not force:
+        raise OutputError(f"{shown(folder)}: is not empty and has no {NAME} to resume; choose another folder")
+    if there and not resume and not force:
+        raise OutputError(f"{shown(folder)}: is not empty; --resume goes on there, --force begins anew")
+
+
+@contextlib.contextmanager
+def _explained(path: str) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"{shown(path)}: cannot be written: {error.strerror or error}") from error

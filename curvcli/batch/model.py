@@ -1,0 +1,73 @@
+"""What passes between the parts of a batch: a mesh to do, how to do it, and the row of what became of it."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Any, Literal
+
+import msgspec
+
+from .._version import __version__
+
+Status = Literal["ok", "failed_checks", "error", "timeout", "out_of_memory", "crashed"]
+
+
+class Item(msgspec.Struct, frozen=True):
+    """One mesh of the plan.
+
+    path: as the user named it, fit for one line. place: an absolute path or a URL. outputs: pairs of a table's kind
+    (empty for what `analyze -o` writes) and an absolute path. content: bytes that no other process can read.
+    """
+
+    path: str
+    place: str
+    outputs: tuple[tuple[str, str], ...] = ()
+    content: bytes | None = None
+
+
+class Settings(msgspec.Struct, frozen=True, kw_only=True):
+    """Everything that decides what is computed and written of each mesh, but for the mesh."""
+
+    passes: tuple[str, ...]
+    save: tuple[str, ...] = ()
+    area: str = "barycentric"
+    mean: str = "sum"
+    orient: str = "file"
+    weld: str | float = "auto"
+    unit: str | None = None
+    regions: str | None = None
+    input_format: str | None = None
+    max_faces: int | None = None
+    max_bytes: int | None = None
+
+    def digest(self) -> str:
+        """The hash by which a later run knows that it was asked for the same; plug-ins count with their versions."""
+        from importlib.metadata import entry_points
+
+        plug_ins = [(one.name, one.dist and one.dist.version) for one in entry_points(group="curvcli.passes")]
+        return hashlib.sha256(msgspec.json.encode([self, sorted(plug_ins)])).hexdigest()
+
+
+class Limits(msgspec.Struct, frozen=True):
+    """What one mesh may cost: seconds, and bytes beyond what the program itself takes."""
+
+    seconds: float | None = None
+    memory: int | None = None
+
+
+class Row(msgspec.Struct, kw_only=True):
+    """One line of the manifest: what became of one mesh. The summary holds none of what differs from run to run."""
+
+    path: str
+    sha256: str | None = None
+    options: str = ""
+    version: str = __version__
+    status: Status = "ok"
+    exit_code: int = 0
+    error: str | None = None
+    seconds: float = 0.0
+    memory: int | None = None
+    outputs: list[str] = []
+    topology: dict[str, Any] = {}
+    totals: dict[str, Any] = {}
+    checks: dict[str, Any] = {}

@@ -1,0 +1,64 @@
+"""How a mesh ends: the status, the exit code and the one line that its row shows."""
+
+from __future__ import annotations
+
+import os
+import signal
+import traceback
+
+from ..errors import InputError, OutputError, UsageError
+from ..loading.content import shown
+from ..memory import ran_out
+from .model import Limits, Row, Status
+
+OK, FAILED_CHECK, INPUT, OUTPUT, INTERNAL = 0, 1, 3, 4, 70
+
+
+def explained(path: str, error: BaseException, limits: Limits) -> Row:
+    """The row of a mesh whose analysis raised an error; a limit that the user set is the mesh's fault, not ours."""
+    if ran_out(error):
+        allowed = limits.memory is not None
+        text = (
+            f"{path}: needs more memory than --max-memory allows; a larger limit takes it"
+            if allowed
+            else f"{path}: out of memory; a machine with more memory, or fewer jobs at once (-j), is needed"
+        )
+        return Row(path=path, status="out_of_memory", exit_code=INPUT if allowed else INTERNAL, error=text)
+    match error:
+        case InputError() | UsageError():
+            text = str(error)
+            code = INPUT
+        case OutputError():
+            text, code = str(error), OUTPUT
+        case _:
+            where = traceback.extract_tb(error.__traceback__)[-1]
+            place = f"{os.path.basename(where.filename)}:{where.lineno}"
+            text, code = f"internal error: {type(error).__name__}: {error} ({place})", INTERNAL
+    named = text if text.startswith(f"{path}:") or code == OUTPUT else f"{path}: {text}"
+    return Row(path=path, status="error", exit_code=code, error=shown(" ".join(named.split("\n"))))
+
+
+def lost(path: str, returncode: int, limits: Limits, *, late: bool) -> Row:
+    """The row of a mesh whose worker was stopped for taking too long, or died."""
+    status: Status
+    if late:
+        status, code = "timeout", INPUT
+        text = f"takes longer than the {limits.seconds:g} s allowed; --timeout sets the limit"
+    elif returncode < 0:
+        status, code = "crashed", INTERNAL
+        hint = "; out of memory? fewer jobs at once (-j) need less" if -returncode == _KILL else ""
+        text = f"the worker was ended by {_signal(-returncode)}{hint}"
+    else:
+        status, code = "crashed", INTERNAL
+        text = f"the worker ended with exit code {returncode}"
+    return Row(path=path, status=status, exit_code=code, error=f"{path}: {text}")
+
+
+_KILL = getattr(signal, "SIGKILL", -1)
+
+
+def _signal(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"

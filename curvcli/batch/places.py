@@ -1,0 +1,143 @@
+"""Where meshes are: local paths, which need nothing more, and URLs, which fsspec lists and reads."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+import io
+import os
+import re
+import sys
+from typing import Any, cast
+from urllib.parse import unquote, urlsplit
+from urllib.request import url2pathname
+
+from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
+from ..loading.content import open_regular, read_limited, shown
+
+_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
+_MAGIC = re.compile(r"[*?[]")
+
+
+def is_url(place: str) -> bool:
+    """Whether fsspec must read it."""
+    return bool(_SCHEME.match(place))
+
+
+def local(place: str) -> str:
+    """A `file://` URL as the path it stands for; everything else as it is."""
+    return url2pathname(urlsplit(place).path) if place.lower().startswith("file://") else place
+
+
+def root_of(pattern: str) -> tuple[str, ...]:
+    """The folder down to the first wildcard, as parts; outputs mirror the tree below it."""
+    parts = parts_of(pattern)[:-1]
+    if os.path.lexists(pattern):
+        return parts
+    return parts[: next((place for place, part in enumerate(parts) if _MAGIC.search(part)), len(parts))]
+
+
+def parts_of(place: str) -> tuple[str, ...]:
+    """The parts of an absolute path or URL, each fit to name a folder."""
+    if is_url(place):
+        url = urlsplit(place)
+        return (url.scheme, url.netloc, *(part for part in unquote(url.path).split("/") if part not in ("", ".", "..")))
+    drive, rest = os.path.splitdrive(os.path.abspath(place))
+    return (drive.strip(":\\/").replace("\\", "_"), *(part for part in rest.split(os.sep) if part))
+
+
+def expand(pattern: str) -> list[str]:
+    """The files that a pattern names, sorted: one that exists by that very name, or all that match.
+
+    Errors: NoMatchError when there is none, UsageError and MissingExtraError for a URL that cannot be listed.
+    """
+    found = _expand_url(pattern) if is_url(pattern) else _expand_path(pattern)
+    if not found:
+        hint = f"; {pattern.rstrip(os.sep)}/**/* names the files in this folder" if os.path.isdir(pattern) else ""
+        raise NoMatchError(f"{shown(pattern)}: no file matches{hint}")
+    return found
+
+
+def _expand_path(pattern: str) -> list[str]:
+    if os.path.lexists(pattern):
+        return [] if os.path.isdir(pattern) else [pattern]
+    return sorted(path for path in glob.iglob(pattern, recursive=True) if not os.path.isdir(path))
+
+
+def _expand_url(pattern: str) -> list[str]:
+    if not re.search(r"[*[]", pattern):  # a question mark begins a query
+        return [pattern]
+    files, path = _file_system(pattern)
+    try:
+        # Listings over HTTP have no types: what ends in a slash is a folder.
+        found = [str(name) for name in files.glob(path) if not str(name).endswith("/")]
+        return sorted(str(files.unstrip_protocol(name)) for name in found if _is_file(files, name))
+    except Exception as error:
+        raise UsageError(f"{shown(pattern)}: cannot be listed: {_told(error)}") from error
+
+
+def _is_file(files: Any, name: str) -> bool:
+    return "http" in files.protocol or bool(files.isfile(name))
+
+
+def read_url(place: str, max_bytes: int | None) -> bytes:
+    """The bytes behind a URL.
+
+    Errors: InputError for what cannot be read, MissingExtraError without the package that reads it.
+    """
+    files, path = _file_system(place)
+    try:
+        with files.open(path, "rb") as stream:
+            return read_limited(stream, max_bytes)
+    except InputError:
+        raise
+    except FileNotFoundError:
+        raise InputError("no such file") from None
+    except Exception as error:
+        raise InputError(f"the file cannot be read ({_told(error)})") from None
+
+
+def _file_system(place: str) -> tuple[Any, str]:
+    if "::" in place:
+        raise UsageError(f"{shown(place)}: URLs within URLs are not read; unpack the archive first")
+    try:
+        from fsspec.core import url_to_fs
+
+        found: tuple[Any, str] = url_to_fs(place)
+    except ImportError as error:
+        install = "pip install 'curvcli[remote]'"
+        raise MissingExtraError(f"{shown(place)}: {_told(error)}; `{install}` reads http and s3") from None
+    except Exception as error:
+        raise UsageError(f"{shown(place)}: {_told(error)}") from None
+    return found
+
+
+def _told(error: BaseException) -> str:
+    return shown(" ".join((str(error) or type(error).__name__).split()))
+
+
+def listed(source: str) -> list[str]:
+    """The names in a list, one a line or, as `find -print0` writes them, each ended by a zero byte; `-` is stdin.
+
+    Errors: InputError for a list that cannot be read.
+    """
+    if source == "-":
+        text = sys.stdin.buffer.read()
+    else:
+        try:
+            with open(source, "rb") as stream:
+                text = stream.read()
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise InputError(f"the list cannot be read ({reason})", path=shown(source)) from None
+    names = text.split(b"\0") if b"\0" in text else text.splitlines()
+    return [os.fsdecode(name) for name in names if name.strip()]
+
+
+def hash_of(path: str) -> str | None:
+    """The SHA-256 of a regular file, None where there is none that can be read."""
+    try:
+        with open_regular(path, None) as file:
+            return hashlib.file_digest(cast("io.BufferedReader", file), "sha256").hexdigest()
+    except (InputError, OSError, MemoryError):
+        return None

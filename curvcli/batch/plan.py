@@ -1,0 +1,95 @@
+"""The plan: which meshes in which order, and where the outputs of each go."""
+
+from __future__ import annotations
+
+import os
+import unicodedata
+from collections.abc import Iterable, Sequence
+
+from ..errors import NoMatchError, UsageError
+from ..loading.content import shown
+from ..output.formats import format_of
+from ..tables import TABLES
+from .model import Item
+from .places import expand, is_url, listed, local, parts_of, read_url, root_of
+
+# Lives in the memory of one process: its content is handed to the others.
+_OF_ONE_PROCESS = "memory://"
+
+
+def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Sequence[str]) -> list[Item]:
+    """Every mesh once, patterns in the order given and the files of each sorted, then the list's in its order.
+
+    The outputs of `scans/a/b.ply` by the pattern `scans/**/*.ply` are `a/b.ply.csv` and so on below `folder`: the tree
+    below the deepest folder that all patterns share, and the whole name of the mesh, so that a.obj and a.ply never
+    meet. What lies in `folder` is an output and matches no wildcard.
+    Errors: NoMatchError for a pattern that no file matches, InputError for a list that cannot be read.
+    """
+    named: list[tuple[str, str]] = []
+    roots: list[tuple[str, ...]] = []
+    inside = os.path.join(os.path.abspath(folder), "")
+    for pattern in map(local, patterns):
+        found = [name for name in expand(pattern) if name == pattern or not os.path.abspath(name).startswith(inside)]
+        if not found:
+            raise NoMatchError(f"{shown(pattern)}: no file matches outside {shown(folder)}")
+        named += [(name, _place(name)) for name in found]
+        roots.append(root_of(pattern))
+    for name in map(local, listed(files_from) if files_from is not None else []):
+        named.append((name, _place(name)))
+        roots.append(parts_of(name)[:-1])
+    if not named:
+        raise NoMatchError(f"{shown(files_from or 'no pattern')}: names no file")
+    base = _shared(roots)
+    items, seen, taken = [], set[str](), set[str]()
+    for name, place in named:
+        if place in seen:
+            continue
+        seen.add(place)
+        stem = _free(os.path.join(os.path.abspath(folder), *parts_of(place)[base:]), save, taken)
+        content = read_url(place, None) if place.startswith(_OF_ONE_PROCESS) else None
+        items.append(Item(shown(name), place, outputs(stem, save), content))
+    return items
+
+
+def outputs(stem: str, save: Iterable[str]) -> tuple[tuple[str, str], ...]:
+    """Kind and path of every output of one mesh."""
+    return tuple((kind if dot else "", f"{stem}.{one}") for one in save for kind, dot, _ in [one.partition(".")])
+
+
+def saves(options: Iterable[str]) -> tuple[str, ...]:
+    """What `--save csv,json` and `--save edges.csv` ask for: suffixes, and a table's kind before one.
+
+    Errors: UsageError for a suffix or a kind that is not promised.
+    """
+    found: dict[str, None] = {}
+    for one in (part.strip().lower().lstrip(".") for option in options for part in option.split(",")):
+        kind, dot, suffix = one.rpartition(".")
+        if dot and (kind not in TABLES or kind == "vertices"):
+            kinds = ", ".join(kind for kind in TABLES if kind != "vertices")
+            raise UsageError(f"--save {shown(one)}: expected KIND.SUFFIX with KIND one of {kinds}")
+        format_of(f"x.{suffix}", kinds=["table"] if dot else ["table", "mesh", "report"])
+        found[one] = None
+    return tuple(found)
+
+
+def _shared(roots: Sequence[tuple[str, ...]]) -> int:
+    """How many parts all roots begin with."""
+    return next((k for k, parts in enumerate(zip(*roots, strict=False)) if len(set(parts)) > 1), min(map(len, roots)))
+
+
+def _place(name: str) -> str:
+    return name if is_url(name) else os.path.abspath(name)
+
+
+def _free(stem: str, save: Sequence[str], taken: set[str]) -> str:
+    """The stem, numbered when one of its outputs would be another mesh's, be it only on a disk that ignores case."""
+    number, tried = 1, stem
+    while taken & (wanted := {_folded(path) for _, path in outputs(tried, save)}):
+        number += 1
+        tried = f"{stem}~{number}"
+    taken |= wanted
+    return tried
+
+
+def _folded(path: str) -> str:
+    return unicodedata.normalize("NFC", path).casefold()

@@ -1,0 +1,142 @@
+"""The engine of one machine: workers that are processes, reused, each with one mesh at a time."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import suppress
+from queue import SimpleQueue
+from typing import Any
+
+from .._version import __version__
+from .model import Item, Limits, Row, Settings
+from .outcome import lost
+
+# One thread each: there are as many workers as processors are meant to be used.
+_POOLS = ("POLARS_MAX", "OMP_NUM", "OPENBLAS_NUM", "MKL_NUM", "NUMEXPR_NUM", "VECLIB_MAXIMUM", "RAYON_NUM")
+ONE_THREAD = {f"{pool}_THREADS": "1" for pool in _POOLS}
+_STARTS = 3
+_DIED = (EOFError, OSError, pickle.UnpicklingError)
+
+
+class Worker:
+    """A process that does one mesh after the other, and is replaced when it dies or is stopped for being late."""
+
+    def __init__(self, limits: Limits):
+        self._limits = limits
+        self._process: subprocess.Popen[bytes] | None = None
+        self._stopped = False
+        self._late = False
+        self._lock = threading.Lock()
+
+    def run(self, item: Item, settings: Settings) -> Row:
+        """The row of one mesh, whatever it does to the process."""
+        process = self._ready()
+        self._late = False
+        timer = threading.Timer(self._limits.seconds or 0, self._too_late)
+        if self._limits.seconds is not None:
+            timer.start()
+        try:
+            row: Row = _ask(process, (item, settings))
+        except _DIED:
+            self.end()
+            row = lost(item.path, process.returncode, self._limits, late=self._late)
+        finally:
+            timer.cancel()
+            if timer.ident is not None:
+                timer.join()
+        if self._late:
+            self.end()
+        return row
+
+    def stop(self) -> None:
+        """Kill the process for good; a thread that waits for its answer learns that it died."""
+        with self._lock:
+            self._stopped = True
+            if self._process is not None:
+                self._process.kill()
+
+    def end(self) -> None:
+        """Kill the process and let go of what it held; for the thread that talks with it."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+            for stream in (self._process.stdin, self._process.stdout):
+                with suppress(OSError):
+                    stream.close()  # type: ignore[union-attr]
+            self._process = None
+
+    def _too_late(self) -> None:
+        self._late = True
+        if self._process is not None:
+            self._process.kill()
+
+    def _ready(self) -> subprocess.Popen[bytes]:
+        """A process that has said that it is ready; starting does not count as time of a mesh."""
+        if self._process is not None and self._process.poll() is None:
+            return self._process
+        ended = 0
+        for _ in range(_STARTS):
+            self.end()
+            with self._lock:
+                if self._stopped:
+                    break
+                self._process = process = _start()
+            try:
+                if _ask(process, self._limits) == __version__:
+                    return process
+            except _DIED:
+                ended = process.wait()
+        raise RuntimeError(f"a worker cannot start: it ends with {ended}")
+
+
+def _start() -> subprocess.Popen[bytes]:
+    # With the very path of this process, so that a worker imports what we imported and nothing from its folder.
+    program = f"import sys; sys.path[:] = {sys.path!r}; from curvcli.batch.worker import main; main()"
+    return subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env=os.environ | ONE_THREAD,
+    )
+
+
+def _ask(process: subprocess.Popen[bytes], question: object) -> Any:
+    assert process.stdin is not None
+    assert process.stdout is not None
+    pickle.dump(question, process.stdin)
+    process.stdin.flush()
+    return pickle.load(process.stdout)
+
+
+def run_processes(items: Sequence[Item], settings: Settings, limits: Limits, jobs: int) -> Iterator[Row]:
+    """The rows of all items as they end; leaving early ends every worker."""
+    workers = [Worker(limits) for _ in range(min(jobs, len(items)))]
+    idle: SimpleQueue[Worker] = SimpleQueue()
+    for worker in workers:
+        idle.put(worker)
+
+    def do(item: Item) -> Row:
+        worker = idle.get()
+        try:
+            return worker.run(item, settings)
+        finally:
+            idle.put(worker)
+
+    pool = ThreadPoolExecutor(len(workers) or 1, "curvcli-batch")
+    try:
+        for future in as_completed([pool.submit(do, item) for item in items]):
+            yield future.result()
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for worker in workers:
+            worker.stop()
+        pool.shutdown()
+        for worker in workers:
+            worker.end()

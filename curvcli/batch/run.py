@@ -1,0 +1,148 @@
+"""One mesh: read, compute, check, write; and the row that tells of it. Every engine comes here."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import io
+import os
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from ..analysis import Analysis, analyze
+from ..errors import InputError, OutputError
+from ..loading.read import read_mesh_file
+from ..loading.recognise import format_of_name
+from ..loading.surfaces import from_file
+from ..output.atomic import Outputs
+from ..output.write import Appearance, write_into
+from ..report.model import Topology, model
+from .model import Item, Limits, Row, Settings
+from .outcome import explained
+from .places import hash_of, is_url, read_url
+
+if TYPE_CHECKING:
+    from ..surface import Surface
+
+_WORST = ("fail", "pass", "not_applicable")
+
+
+def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, BaseException | None]:
+    """Analyse one mesh and write its outputs whole or not at all: its row, and the error that it ended with."""
+    start = time.perf_counter()
+    _forget_peak()
+    failure: BaseException | None = None
+    try:
+        analysis = _analysed(item, settings)
+        _write(analysis, item)
+        row = _row(item, analysis)
+    except Exception as error:
+        failure = error
+        row = explained(item.path, error, limits)
+        row.sha256 = _hash(item)
+    row.seconds, row.memory = round(time.perf_counter() - start, 4), _peak()
+    return row, failure
+
+
+def _analysed(item: Item, settings: Settings) -> Analysis:
+    timings: dict[str, float] = {}
+    with _timed(timings, "read"):
+        surface = _surface(item, settings)
+    with _timed(timings, "compute"):
+        conventions: dict[str, Any] = {
+            key: getattr(settings, key) for key in ("area", "mean", "orient", "weld", "unit", "regions")
+        }
+        analysis = analyze(surface, settings.passes, **conventions)
+    with _timed(timings, "check"):
+        _ = analysis.checks
+    analysis.timings |= timings
+    return analysis
+
+
+def _surface(item: Item, settings: Settings) -> Surface:
+    """The surface of a file or of what a URL leads to; messages name it as the user did."""
+    asked: dict[str, Any] = {key: getattr(settings, key) for key in ("weld", "max_faces", "max_bytes")}
+    wanted = settings.input_format
+    try:
+        if item.content is None and not is_url(item.place):
+            file = read_mesh_file(item.place, input_format=wanted, **asked)
+        else:
+            content = item.content if item.content is not None else read_url(item.place, settings.max_bytes)
+            file = read_mesh_file(io.BytesIO(content), input_format=wanted or format_of_name(item.place), **asked)
+        return from_file(replace(file, path=item.path), settings.orient)  # type: ignore[arg-type]
+    except InputError as error:
+        error.path = item.path
+        raise
+
+
+def _write(analysis: Analysis, item: Item) -> None:
+    paths = [path for kind, path in item.outputs if not kind]
+    tables = [(kind, path) for kind, path in item.outputs if kind]
+    for folder in {os.path.dirname(path) for _, path in item.outputs}:
+        _make(folder)
+    # The folder is the batch's own and was checked at the start: what stands there is of an earlier run.
+    with Outputs([path for _, path in item.outputs], force=True) as outputs:
+        analysis.extra_notices += write_into(outputs, analysis, paths, Appearance(), tables=tables)
+        outputs.commit()
+
+
+def _make(folder: str) -> None:
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: cannot be made: {error.strerror or error}") from error
+
+
+def _row(item: Item, analysis: Analysis) -> Row:
+    report = model(analysis)
+    checks: dict[str, Any] = {}
+    for check in report.checks:
+        # One cell per identity: the worst of the whole, the components and the regions.
+        known = checks.setdefault(check.name, {"status": check.status, "residual": check.residual})
+        if _WORST.index(check.status) < _WORST.index(known["status"]):
+            checks[check.name] = {"status": check.status, "residual": check.residual}
+    return Row(
+        path=item.path,
+        sha256=analysis.surface.file.sha256 if analysis.surface.file else None,
+        status="ok" if analysis.passed else "failed_checks",
+        topology={key: getattr(report.topology, key) for key in Topology.__struct_fields__},
+        totals=msgspec.to_builtins(report.totals),
+        checks=checks,
+    )
+
+
+def _hash(item: Item) -> str | None:
+    """The hash of a file that could not be analysed, None where it cannot be read either."""
+    if item.content is not None:
+        return hashlib.sha256(item.content).hexdigest()
+    return None if is_url(item.place) else hash_of(item.place)
+
+
+@contextlib.contextmanager
+def _timed(timings: dict[str, float], name: str) -> Any:
+    start = time.perf_counter()
+    yield
+    timings[name] = time.perf_counter() - start
+
+
+def _forget_peak() -> None:
+    """Let the system measure the peak of this mesh, not of all before it; only Linux can."""
+    with contextlib.suppress(OSError), open("/proc/self/clear_refs", "w", encoding="ascii") as stream:
+        stream.write("5")
+
+
+def _peak() -> int | None:
+    """Bytes that the process held at most; None where the system does not tell."""
+    with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as stream:
+        for line in stream:
+            if line.startswith("VmHWM:"):
+                return int(line.split()[1]) * 1024
+    with contextlib.suppress(ImportError):
+        import resource
+        import sys
+
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+    return None

@@ -1,0 +1,71 @@
+"""A worker: a process of its own that takes one mesh after the other from stdin and answers with rows on stdout."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import os
+import pickle
+import signal
+import sys
+import warnings
+
+from .._version import __version__
+from .model import Item, Limits, Settings
+
+
+def main() -> None:
+    """Work until stdin ends, which it does with the parent, however that ended."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the parent decides
+    tasks = sys.stdin.buffer
+    # Whatever a library prints must not come between the rows.
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    warnings.simplefilter("ignore")
+    limits: Limits = pickle.load(tasks)
+
+    from ..memory import ran_out
+    from ..pipeline import load_passes
+    from .run import run
+
+    # Here, so that the first mesh is not charged with it.
+    load_passes()
+    for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
+        importlib.import_module(name)
+    if limits.memory is not None:
+        _limit(limits.memory)
+    _answer(answers, __version__)
+    while True:
+        try:
+            task: tuple[Item, Settings] = pickle.load(tasks)
+        except EOFError:
+            return
+        row, failure = run(*task, limits)
+        _answer(answers, row)
+        if failure is not None and ran_out(failure):
+            return  # memory in pieces serves nobody; the next mesh gets a fresh process
+
+
+def _answer(stream: object, answer: object) -> None:
+    """Hand an answer over; a parent that is gone wants none."""
+    try:
+        pickle.dump(answer, stream)  # type: ignore[arg-type]
+        stream.flush()  # type: ignore[attr-defined]
+    except BrokenPipeError:
+        os._exit(0)
+
+
+def _limit(memory: int) -> None:
+    """Bound the address space at what the program itself takes and this much more."""
+    from ..memory import require_polars
+
+    require_polars(0)
+    import polars as pl
+
+    pl.DataFrame({"x": [1.0]}).lazy().select(pl.col("x").sum()).collect()
+    with contextlib.suppress(ImportError, OSError):
+        import resource
+
+        with open("/proc/self/statm", encoding="ascii") as stream:
+            used = int(stream.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+        resource.setrlimit(resource.RLIMIT_AS, (used + memory, used + memory))

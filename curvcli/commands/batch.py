@@ -1,0 +1,192 @@
+"""`curvcli batch`: many meshes on this machine or on a Dask cluster, and a summary with one row each."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..errors import UsageError
+from . import options
+
+if TYPE_CHECKING:
+    from ..batch.batch import Batch, Engine
+    from ..batch.model import Item, Limits, Row, Settings
+
+
+@click.command("batch", short_help="Analyse many meshes: workers, timeouts, resume, a summary.")
+@click.argument("patterns", metavar="PATTERN...", nargs=-1)
+@click.option("-o", "--output", "folder", metavar="DIR", required=True, help="Folder of the outputs and the summary.")
+@click.option(
+    "--save",
+    metavar="SUFFIX[,SUFFIX]",
+    multiple=True,
+    help="Write of each mesh what `analyze -o` does, such as csv,ply,json, or a table, such as edges.csv. "
+    "Without it only the summary is written.",
+)
+@click.option("--files-from", metavar="LIST|-", help="Take more meshes from a list: lines, or NUL-terminated names.")
+@click.option("-j", "--jobs", type=click.IntRange(1), help="Meshes at a time.  [default: one per processor]")
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS|local:N",
+    help="Work on a Dask cluster, such as tcp://host:8786, or on N Dask workers here.",
+)
+@click.option("--resume", is_flag=True, help="Go on in DIR: skip what is done and unchanged.")
+@click.option(
+    "--timeout", metavar="SECONDS", type=click.FloatRange(0, min_open=True), help="Give up a mesh that takes longer."
+)
+@click.option(
+    "--max-memory", metavar="MB", type=click.IntRange(512), help="Give up a mesh that needs more than this. Linux only."
+)
+@options.passes
+@click.option("--regions", metavar="groups|objects|materials|PROPERTY", help="Labels of faces within each mesh.")
+@options.reading
+@click.option("--force", is_flag=True, help="Begin anew in a DIR that is not empty; what is written is replaced.")
+@options.strict
+@options.talking
+def command(patterns: tuple[str, ...], **settings: Any) -> int:
+    """Analyse every mesh that a PATTERN or a list names. One bad mesh never stops the rest.
+
+    Quote patterns to have `**` expanded here. Paths below DIR mirror the tree that the meshes are in, with the whole
+    name of each: scans/a/b.ply by 'scans/**/*.ply' becomes DIR/a/b.ply.csv. DIR/summary.csv and .parquet have one row
+    per mesh in the order of the inputs, DIR/manifest.jsonl one line per mesh as it ends. With curvcli[remote], a
+    PATTERN may be a URL that fsspec knows.
+
+    \b
+      curvcli batch 'scans/**/*.ply' -o out --save csv,json -j 8
+      curvcli batch 'scans/**/*.ply' -o out --save csv,json -j 8 --resume
+      find . -name '*.stl' -print0 | curvcli batch -o out --files-from -
+      curvcli batch 's3://bucket/scans/*.obj' -o out --scheduler tcp://host:8786
+    """
+    if not patterns and settings["files_from"] is None:
+        raise click.UsageError("no PATTERN and no --files-from given", click.get_current_context())
+    return run(patterns, **settings)
+
+
+def run(
+    patterns: tuple[str, ...],
+    *,
+    folder: str,
+    save: tuple[str, ...],
+    files_from: str | None,
+    jobs: int | None,
+    scheduler: str | None,
+    resume: bool,
+    force: bool,
+    timeout: float | None,
+    max_memory: int | None,
+    strict: bool,
+    quiet: bool,
+    verbose: int,
+    passes: tuple[str, ...],
+    weld: str,
+    **conventions: Any,
+) -> int:
+    """Check the options, plan, work, summarise; the exit code."""
+    from ..batch.batch import Batch
+    from ..batch.manifest import Manifest
+    from ..batch.model import Limits, Settings
+    from ..batch.plan import plan, saves
+    from ..pipeline import resolve
+    from .main import worst
+
+    if resume and force:
+        raise UsageError("--resume keeps what --force would replace; choose one")
+    if max_memory is not None and not sys.platform.startswith("linux"):
+        raise UsageError("--max-memory: only Linux bounds the memory of a process")
+    wanted = saves(save)
+    chosen = tuple(resolve(passes or ("core",)))
+    if any(one.startswith("regions.") for one in wanted) and conventions["regions"] is None:
+        raise UsageError("--save regions: there are none without --regions")
+    how = Settings(passes=chosen, save=wanted, weld=options.welding(weld), **conventions)
+    limits = Limits(timeout, None if max_memory is None else max_memory << 20)
+    engine = _engine(scheduler, jobs, limits)
+    items = plan(patterns, files_from, folder, wanted)
+    with Manifest(folder, resume=resume, force=force) as manifest:
+        batch = Batch(items, how, folder, manifest, strict)
+        todo = batch.todo()
+        try:
+            _work(batch, engine, todo, quiet)
+        finally:
+            batch.summarise()
+            if not quiet:
+                _tell(batch, len(todo))
+    return worst([row.exit_code for row in batch.rows])
+
+
+def _engine(scheduler: str | None, jobs: int | None, limits: Limits) -> Engine:
+    from ..batch.processes import run_processes
+
+    if scheduler is None:
+        count = jobs or _processors()
+
+        def here(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
+            return run_processes(items, settings, limits, count)
+
+        return here
+    if jobs is not None:
+        raise UsageError("-j counts workers here, --scheduler has its own; choose one")
+    from ..batch.dask import connect
+
+    return connect(scheduler, limits)
+
+
+def _processors() -> int:
+    """Those that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> None:
+    """Do it, with a bar on a terminal and a line for every mesh that fails."""
+    from .main import say
+
+    if quiet or not sys.stderr.isatty():
+        for row in batch.work(engine, todo):
+            if row.error is not None:
+                say(row.error)
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        *(TextColumn("meshes"), BarColumn(), MofNCompleteColumn()),
+        *(TextColumn("{task.fields[rate]}"), TimeRemainingColumn(), TextColumn("{task.fields[failures]}")),
+    )
+    with Progress(*columns, console=Console(stderr=True)) as progress:
+        bar = progress.add_task("", total=len(todo), rate="", failures="")
+        failed = 0
+        for row in batch.work(engine, todo):
+            if row.error is not None:
+                failed += 1
+                progress.update(bar, failures=f"[red]{failed} failed[/red]")
+                progress.console.print(f"curvcli: {row.error}", markup=False, highlight=False, soft_wrap=True)
+            speed = progress.tasks[bar].speed
+            progress.update(bar, advance=1, rate=f"{speed:.1f}/s" if speed else "")
+
+
+def _tell(batch: Batch, begun: int) -> None:
+    """How many meshes ended how, on stdout."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    counts = Counter((row.status, row.exit_code) for row in batch.rows)
+    table = Table(box=box.SIMPLE_HEAD)
+    table.add_column("status")
+    table.add_column("exit code", justify="right")
+    table.add_column("meshes", justify="right")
+    for (status, code), count in sorted(counts.items()):
+        table.add_row(status.replace("_", " "), str(code), f"{count:,}")
+    console = Console(highlight=False)
+    console.print(table)
+    missing = len(batch.items) - len(batch.rows)
+    kept = len(batch.items) - begun
+    parts = [f"{len(batch.rows):,} of {len(batch.items):,} meshes"]
+    parts += [f"{kept:,} unchanged since an earlier run"] * bool(kept)
+    parts += [f"{missing:,} left for --resume"] * bool(missing)
+    console.print(f"{', '.join(parts)}; {os.path.join(batch.folder, 'summary.csv')}", soft_wrap=True)
