@@ -1,0 +1,93 @@
+"""Polyhedra: integrals in closed form, Steiner's polynomial against volumes of parallel bodies, what is convex."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+from tests import meshes
+from tests.analysed import analyse, sample, total
+from tests.meshes import Mesh, mesh, of_sample
+
+
+@pytest.mark.parametrize("edge", [1.0, 0.3, 1e-9, 7e9])
+def test_mean_curvature_of_a_cube(edge: float) -> None:
+    assert total(sample("cube", edge=edge), "H_theta") == pytest.approx(6 * math.pi * edge, rel=1e-14)
+
+
+@pytest.mark.parametrize("sides", [(1.0, 1.0, 1.0), (1.0, 2.0, 3.0), (1e-3, 1.0, 50.0)])
+def test_steiner_polynomial_of_a_box(sides: tuple[float, float, float]) -> None:
+    a, b, c = sides
+    found = analyse(boxed(of_sample("cube"), sides)).report()["steiner"]
+    wanted = [a * b * c, 2 * (a * b + b * c + c * a), math.pi * (a + b + c), 4 * math.pi / 3]
+    np.testing.assert_allclose(found["coefficients"], wanted, rtol=1e-14)
+    assert found["convex"] is True
+
+
+def boxed(given: Mesh, sides: tuple[float, float, float]) -> Mesh:
+    return given.moved(given.points * np.array(sides))
+
+
+def test_steiner_polynomial_of_a_tetrahedron() -> None:
+    found = sample("tetrahedron", edge=2.0).report()["steiner"]["coefficients"]
+    wanted = [8 / math.sqrt(72), 4 * math.sqrt(3), 6 * (math.pi - math.acos(1 / 3)), 4 * math.pi / 3]
+    np.testing.assert_allclose(found, wanted, rtol=1e-14)
+
+
+@pytest.mark.parametrize("distance", [0.05, 0.5, 3.0])
+@pytest.mark.parametrize("name", ["tetrahedron", "box", "ellipsoid"])
+def test_steiner_polynomial_is_the_volume_of_the_parallel_body(name: str, distance: float) -> None:
+    """Between the sums of the body with a polyhedron inside the ball of that radius and with one outside it."""
+    body = {"box": boxed(of_sample("cube"), (1.0, 2.0, 0.5)), "tetrahedron": meshes.tetrahedron()}.get(
+        name, meshes.ellipsoid()
+    )
+    ball = of_sample("icosphere", size=400).points
+    nearest = float((-ConvexHull(ball).equations[:, 3]).min())
+    inner, outer = (
+        ConvexHull((body.points[:, None] + radius * ball).reshape(-1, 3)).volume
+        for radius in (distance, distance / nearest)
+    )
+    polynomial = np.polynomial.Polynomial(analyse(body).report()["steiner"]["coefficients"])
+    assert inner < polynomial(distance) < outer < 1.05 * inner
+
+
+def test_what_is_convex() -> None:
+    cube, sphere = of_sample("cube"), of_sample("irregular_sphere", size=100)
+    dented = sphere.points.copy()
+    dented[7] *= 0.9
+    hollow = meshes.joined(cube, meshes.reversed_faces(cube.moved(cube.points / 2)))
+    kinds = {
+        True: [cube, sphere, meshes.tetrahedron()],
+        False: [sphere.moved(dented), hollow, meshes.torus(), meshes.cap()],
+    }
+    kinds[False] += [cube.with_faces(cube.faces[1:]), meshes.joined(cube, cube.moved(cube.points + 3.0))]
+    for convex, bodies in kinds.items():
+        assert [analyse(body).report()["steiner"]["convex"] for body in bodies] == [convex] * len(bodies)
+
+
+def test_a_block_with_two_holes() -> None:
+    """K is ±π/2 at the corners alone: K⁺ = 8 · π/2 and K⁻ = 16 · π/2, tight, 6 critical points to a height function."""
+    result = sample("genus_2")
+    assert total(result, "K") == pytest.approx(-4 * math.pi, rel=1e-13)
+    assert total(result, "K_plus") == pytest.approx(4 * math.pi, rel=1e-13)
+    assert total(result, "K_minus") == pytest.approx(8 * math.pi, rel=1e-13)
+    (tight,) = [check for check in result.checks if check.name == "total_absolute_curvature" and check.scope == "whole"]
+    assert tight.status == "pass"
+    assert total(result, "K_abs") == pytest.approx(2 * math.pi * (2 + 2 * 2), rel=1e-13)
+
+
+@pytest.mark.parametrize("name", ["torus", "clifford_torus"])
+def test_tori_of_revolution_are_tight(name: str) -> None:
+    assert total(sample(name), "K_abs") == pytest.approx(2 * math.pi * 4, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_flat_triangle_seen_from_both_sides(seed: int) -> None:
+    corners = np.random.default_rng(seed).normal(size=(3, 3))
+    result = analyse(mesh(corners, [[0, 1, 2], [0, 2, 1]]))
+    assert total(result, "K") == pytest.approx(4 * math.pi, rel=1e-14)
+    np.testing.assert_allclose(np.abs(result.edges["theta"]), math.pi, rtol=1e-14)
+    np.testing.assert_allclose(result.vertices["K"].sum(), 4 * math.pi, rtol=1e-14)
