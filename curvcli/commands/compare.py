@@ -1,4 +1,4 @@
-"""`curvcli compare`: two surfaces set against each other."""
+"""`curvcli compare`: two meshes or reports set against each other; with --map, the map between two surfaces."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from . import options
 
@@ -14,11 +15,30 @@ if TYPE_CHECKING:
     from ..output.formats import Format, Kind
 
 _TABLES = ("vertices", "faces")
+# Options that make sense only without --map, and only with it.
+_DIFFERENCES = ("rtol", "atol", "only", "ignore", "common", "passes", "area", "mean", "orient", "unit", "regions")
+_MAP = ("tables",)
+_CONVENTIONS = ("passes", "area", "mean", "orient", "weld", "unit", "regions")
 
 
-@click.command("compare", short_help="Set two surfaces against each other: as a map on the same faces.")
+@click.command("compare", short_help="What differs between two meshes or reports; --map: one as a map of the other.")
 @click.argument("a", metavar="A")
 @click.argument("b", metavar="B")
+@click.option(
+    "--rtol",
+    type=click.FloatRange(0),
+    default=1e-9,
+    show_default=True,
+    help="How far a value may move, relative to its size; 0: to the last bit.",
+)
+@click.option(
+    "--atol", type=click.FloatRange(0), default=0.0, show_default=True, help="How far a value may move besides."
+)
+@click.option(
+    "--only", metavar="KEY", multiple=True, help="Compare only this, such as totals or 'columns.K*'; repeatable."
+)
+@click.option("--ignore", metavar="KEY", multiple=True, help="Leave this out, such as 'warnings.*'; repeatable.")
+@click.option("--common", is_flag=True, help="Compare what both have; else what only one has is a difference.")
 @click.option("--map", "as_map", is_flag=True, help="A → B as a map on the same faces: its energy and its distortion.")
 @click.option(
     "-o",
@@ -26,14 +46,16 @@ _TABLES = ("vertices", "faces")
     "outputs",
     metavar="PATH",
     multiple=True,
-    help="Write .csv .tsv .parquet .npz (vertex table) or .json (report); repeatable. `-` is stdout.",
+    help="Write .csv .tsv .parquet .npz (the differences; with --map the vertex table) or .json (report); repeatable. "
+    "`-` is stdout.",
 )
 @click.option(
     "--table",
     "tables",
     metavar="KIND=PATH",
     multiple=True,
-    help="Write a table, KIND faces (singular values, non-conformality) or vertices (harmonic residual); repeatable.",
+    help="With --map: write a table, KIND faces (singular values, non-conformality) or vertices (harmonic residual); "
+    "repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.nonconformality.")
@@ -41,32 +63,55 @@ _TABLES = ("vertices", "faces")
 @click.option(
     "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
 )
-@options.weld
-@options.input_format
-@options.max_faces
-@options.max_bytes
+@options.passes
+@click.option(
+    "--regions",
+    metavar="FILE|groups|objects|materials|PROPERTY",
+    help="One label per face: integrals and checks are compared per region too.",
+)
+@options.reading
 @options.force
 @options.talking
 def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
-    """With --map: the map that sends each vertex of A to the vertex of the same index of B, linear on faces.
+    """What differs between A and B beyond tolerance: topology, totals, checks, columns. Exits with 1 if anything does.
 
+    A and B are meshes, reports (.json) or vertex tables (.csv .tsv .parquet) of `curvcli analyze`. A mesh
+    against a report or a table is analysed with the passes and conventions found there, as far as none
+    are given: so a stored report guards a mesh in CI. Two meshes with equally many vertices are
+    compared vertex by vertex too.
+
+    A value has moved when it did by more than atol + rtol · its size, and more than rounding explains;
+    values that can cancel are measured by their terms.
+
+    With --map: the map that sends each vertex of A to the vertex of the same index of B, linear on faces.
     Tells its Dirichlet energy, the area of its image, its non-conformality (0 for conformal maps), the
     singular values σ₁ ≥ σ₂ ≥ 0 on every face, and how far it is from harmonic. A and B must have the
     same faces. Exits with 1 when an identity fails.
 
     \b
+      curvcli compare bunny.obj bunny.json
+      curvcli compare old.ply new.ply --rtol 1e-6 --ignore vertices
+      curvcli compare bunny.obj bunny.json --only totals --only checks
       curvcli compare mesh.obj flattened.obj --map
       curvcli compare mesh.obj flattened.obj --map --get totals.nonconformality
       curvcli compare mesh.obj flattened.obj --map --table faces=distortion.csv
     """
     context = click.get_current_context()
-    if not as_map:
-        raise click.UsageError("say how to compare: --map takes A → B as a map on the same faces", context)
+    for name in _DIFFERENCES if as_map else _MAP:
+        if name in settings and context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            flag = next(p for p in context.command.params if p.name == name).opts[-1]
+            raise click.UsageError(f"{flag} goes {'without' if as_map else 'with'} --map", context)
     if settings["as_json"] + (settings["get"] is not None) > 1:
         raise click.UsageError("--json and --get both want stdout; choose one", context)
     if a == "-" == b:
         raise click.UsageError("A and B cannot both be stdin; give one of them a path", context)
-    return compare_map(a, b, **settings)
+    if not as_map:
+        from .comparing import compare
+
+        given = {name for name in _CONVENTIONS if context.get_parameter_source(name) is not ParameterSource.DEFAULT}
+        del settings["tables"]
+        return compare(a, b, given=given, **settings)
+    return compare_map(a, b, **{name: value for name, value in settings.items() if name not in _DIFFERENCES})
 
 
 def compare_map(

@@ -121,11 +121,11 @@ def test_failing_identity_is_exit_1(run: Run, square: Path, monkeypatch: pytest.
     assert "FAIL" in out
 
 
-def test_without_map_it_says_what_there_is(run: Run, square: Path) -> None:
-    code, out, err = run("compare", square, square)
-    assert (code, out) == (2, "")
-    assert "--map" in err
-    assert len(err.splitlines()) == 1
+def test_options_of_the_other_kind_are_refused(run: Run, square: Path) -> None:
+    for arguments in (["--map", "--rtol", "1e-3"], ["--map", "--regions", "groups"], ["--table", "faces=f.csv"]):
+        code, out, err = run("compare", square, square, *arguments)
+        assert (code, out, err.count("\n")) == (2, "", 1)
+        assert ("without --map" if "--map" in arguments else "with --map") in err
 
 
 def test_refused(run: Run, square: Path, tmp_path: Path) -> None:

@@ -1,0 +1,59 @@
+"""Vertex tables that were written before: columns by name."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..memory import require_polars
+from .content import open_regular, read_limited
+
+SUFFIXES = (".csv", ".tsv", ".parquet")
+
+
+def read_stored_table(path: str, *, max_bytes: int | None = None) -> dict[str, NDArray[Any]]:
+    """The columns of a vertex table in .csv, .tsv or .parquet: float64 (NaN is null), or words (None is null).
+
+    Errors: InputError for a file that is missing, no table, or no vertex table of curvcli.
+    """
+    try:
+        with open_regular(path, max_bytes) as file:
+            data = read_limited(file, max_bytes)
+        return _columns(data, os.path.splitext(path)[1].lower())
+    except InputError as error:
+        error.path = path
+        raise
+
+
+def _columns(data: bytes, suffix: str) -> dict[str, NDArray[Any]]:
+    require_polars(len(data))
+    import polars as pl
+    from polars.exceptions import PolarsError
+
+    hint = "`curvcli analyze MESH -o TABLE.csv` writes one"
+    try:
+        if suffix == ".parquet":
+            frame = pl.read_parquet(data)
+        else:
+            frame = pl.read_csv(data, separator="\t" if suffix == ".tsv" else ",", infer_schema_length=None)
+    except (PolarsError, OSError) as error:
+        reason = str(error).strip().partition("\n")[0]
+        raise InputError(f"cannot be read as a table: {reason}", hint=hint) from None
+    if "vertex" not in frame.columns:
+        found = ", ".join(frame.columns[:8])
+        raise InputError(f"no column `vertex` found among {found}; a vertex table expected", hint=hint)
+    if not (frame["vertex"].dtype.is_integer() and (frame["vertex"] == np.arange(frame.height)).all()):
+        raise InputError(
+            "column `vertex` is not 0, 1, 2, …; a vertex table in the order of its file expected", hint=hint
+        )
+    found_columns: dict[str, NDArray[Any]] = {}
+    for series in frame.drop("vertex").iter_columns():
+        if series.dtype.is_numeric() or series.dtype in (pl.Boolean, pl.Null) or series.null_count() == len(series):
+            found_columns[series.name] = series.cast(pl.Float64).fill_null(float("nan")).to_numpy()
+        else:
+            found_columns[series.name] = series.cast(pl.String).to_numpy()
+    return found_columns
