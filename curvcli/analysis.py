@@ -21,7 +21,7 @@ from .pipeline import evaluate, presented, resolve, schedule
 from .regions import Regions, cut_apart, find_regions
 from .regions import findings as region_findings
 from .surface import Surface
-from .totals import totals
+from .totals import lost, lost_totals, totals
 
 if TYPE_CHECKING:
     import os
@@ -200,8 +200,22 @@ class Analysis:
     @cached_property
     def _findings(self) -> list[Notice]:
         found = findings.of_surface(self.surface, self.columns)
-        if self.cut is not None:
-            found += region_findings(self.cut.surface, self.cut_groups)
+        found += findings.out_of_range(self._lost)
+        if self.cut is not None and self.regions is not None:
+            found += region_findings(self.cut.surface, self.cut_groups, self.regions)
+        return found
+
+    @property
+    def _lost(self) -> dict[str, int]:
+        """How many values of each chosen column and total no double holds in the file's unit."""
+        if not self.surface.unit_exponent:
+            return {}
+        quantities = [passes.quantity(name) for name in self.chosen]
+        found = {
+            q.stem: lost(self.surface, self.columns[q.name], q.length_exponent) for q in quantities if not q.labels
+        }
+        for key in lost_totals(self.surface, self.columns):
+            found[key] = found.get(key, 0) + 1
         return found
 
     # ------------------------------------------------------------------ outputs

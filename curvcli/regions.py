@@ -122,24 +122,21 @@ def cut_apart(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
     return cut, by_label(cut, label, regions.count, "region", regions.names)
 
 
-def findings(cut: Surface, groups: Groups) -> list[Notice]:
-    """Regions in several pieces or pinched at a vertex: often a label that has slipped."""
+def findings(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
+    """What often is a label that has slipped: regions in pieces, pinched or of a single face, faces without one."""
     pieces = np.zeros(groups.count, np.int64)
     first = np.unique(cut.components.face, return_index=True)[1]
     np.add.at(pieces, groups.face[first], 1)
-    split = np.flatnonzero(pieces > 1)
-    counts = census(cut, groups)
-    pinched = np.flatnonzero(counts.nonmanifold_vertices > 0)
+    pinched = census(cut, groups).nonmanifold_vertices > 0
+    single = groups.faces.members() == 1
     found = [
-        Notice("regions_in_pieces", len(split), "regions are not connected", examples=tuple(map(int, split[:5]))),
-        Notice(
-            "regions_pinched",
-            len(pinched),
-            "regions touch themselves at a vertex",
-            examples=tuple(map(int, pinched[:5])),
-        ),
+        ("regions_in_pieces", pieces > 1, "regions are not connected"),
+        ("regions_pinched", pinched, "regions touch themselves at a vertex"),
+        ("regions_of_one_face", single if not single.all() else ~single, "regions are a single face"),
+        ("faces_without_region", regions.face < 0, "faces have no region"),
     ]
-    return [notice for notice in found if notice.count]
+    marked = [(code, np.flatnonzero(mask), message) for code, mask, message in found]
+    return [Notice(c, len(at), text, examples=tuple(map(int, at[:5]))) for c, at, text in marked if len(at)]
 
 
 def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions:

@@ -7,12 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import cross, dot, face_blocks
+from ..blocks import EPSILON, cross, dot, face_blocks
 from ..declare import Column, VectorColumn, curvature_pass
 from ..surface import Surface
 from .mean import conormals
 
 EDGES_PER_BLOCK = 16384
+
+# Rounding of the sine between two unit normals.
+FOLD = 8 * EPSILON
 
 
 @curvature_pass(
@@ -39,7 +42,7 @@ def edge_length(surface: Surface) -> Column:
     parity="odd",
     signed=True,
     preserves="Steiner: the area at distance t grows by t Σ θ_e|e|",
-    boundary="null; also where n_e ≠ 2; its size where the surface has no orientation",
+    boundary="null; also where n_e ≠ 2; its size where the surface has no orientation; +π where it folds onto itself",
     source="Sullivan, Discrete surfaces",
 )
 def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
@@ -58,8 +61,10 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
         side = np.where(forward, agree, -agree)
         if face_sign is not None:
             side *= face_sign[one]
-        turn = dot(cross(nu, mu), span) / np.sqrt(dot(span, span))
-        found = np.arctan2(side * turn, agree * dot(nu, mu))
+        turn = side * dot(cross(nu, mu), span) / np.sqrt(dot(span, span))
+        together = agree * dot(nu, mu)
+        # Two faces that lie on each other turn by π; the sign of a sine that is all rounding means nothing.
+        found = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
         angle[edges] = found if without is None else np.where(without[one], np.abs(found), found)
     return angle
 
