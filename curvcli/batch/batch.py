@@ -5,7 +5,7 @@ from __future__ import annotations
 import glob
 import hashlib
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -15,15 +15,13 @@ import msgspec
 from .._version import __version__
 from ..loading.content import shown
 from .manifest import Manifest
-from .model import Item, Row, Settings
+from .model import Engine, Item, Row, Settings
 from .outcome import INTERNAL, OUTPUT
 from .places import hash_of, is_url, read_url
 from .summary import write_summary
 
 _WRITTEN = ("ok", "failed_checks")
 _AGAIN = ("timeout", "crashed", "out_of_memory")
-
-Engine = Callable[[Sequence[Item], Settings], Iterator[Row]]
 
 
 @dataclass
@@ -69,8 +67,9 @@ class Batch:
         """What has ended, in the order of the plan."""
         return [self._rows[item.path] for item in self.items if item.path in self._rows]
 
-    def summarise(self) -> None:
-        """Write the summary of what has ended."""
+    def finish(self) -> None:
+        """Write the summary of what has ended, and remove what was not finished; no worker may work any more."""
+        _sweep(self.items)
         write_summary(self.folder, self.rows)
 
     def _done(self, item: Item) -> Row | None:

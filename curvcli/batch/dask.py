@@ -4,24 +4,26 @@ from __future__ import annotations
 
 import threading
 import uuid
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 from .._version import __version__
 from ..errors import CurvcliError, MissingExtraError, UsageError
-from .model import Item, Limits, Row, Settings
+from .model import Engine, Item, Limits, Row, Settings
 from .outcome import lost
 from .processes import ONE_THREAD, Worker
 
-_WAIT = 30.0
+# Seconds that a scheduler, and then its first worker, may take to answer.
+_WAIT = 15.0
 
 
 class SchedulerLostError(CurvcliError):
     """A cluster that went away while it worked."""
 
 
-def connect(scheduler: str, limits: Limits) -> Callable[[Sequence[Item], Settings], Iterator[Row]]:
+@contextmanager
+def connect(scheduler: str, limits: Limits) -> Iterator[Engine]:
     """The engine that works on the cluster at an address, or on `local:N` Dask workers of this machine.
 
     A Dask worker that is killed costs its meshes a second try elsewhere; only a mesh that ends several of them is given
@@ -40,27 +42,22 @@ def connect(scheduler: str, limits: Limits) -> Callable[[Sequence[Item], Setting
     elif "://" not in scheduler:
         raise UsageError(f"--scheduler {scheduler}: expected an address such as tcp://host:8786, or local:N")
 
-    def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
-        if items:
-            yield from _run(items, settings, limits, scheduler)
-
-    return engine
-
-
-def _run(items: Sequence[Item], settings: Settings, limits: Limits, scheduler: str) -> Iterator[Row]:
-    from distributed import as_completed
+    from distributed import Future, as_completed
 
     with ExitStack() as stack:
         client = _client(stack, scheduler)
-        run = uuid.uuid4().hex
-        futures = {
-            client.submit(in_worker, item, settings, limits, key=f"curvcli-{run}-{index}", pure=False): item
-            for index, item in enumerate(items)
-        }
-        for future in as_completed(list(futures)):
-            item = futures.pop(future)
-            yield _row(future, item, limits, scheduler)
-            future.release()
+
+        def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
+            run = uuid.uuid4().hex
+            futures: dict[Future, Item] = {
+                client.submit(in_worker, item, settings, limits, key=f"curvcli-{run}-{index}", pure=False): item
+                for index, item in enumerate(items)
+            }
+            for future in as_completed(list(futures)):
+                yield _row(future, futures.pop(future), limits, scheduler)
+                future.release()
+
+        yield engine
 
 
 def _client(stack: ExitStack, scheduler: str) -> Any:

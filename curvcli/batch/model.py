@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Literal
 
 import msgspec
@@ -71,3 +72,7 @@ class Row(msgspec.Struct, kw_only=True):
     topology: dict[str, Any] = {}
     totals: dict[str, Any] = {}
     checks: dict[str, Any] = {}
+
+
+Engine = Callable[[Sequence[Item], Settings], Iterator[Row]]
+"""Does the items and gives their rows as they end."""

@@ -49,7 +49,8 @@ def parts_of(place: str) -> tuple[str, ...]:
 def expand(pattern: str) -> list[str]:
     """The files that a pattern names, sorted: one that exists by that very name, or all that match.
 
-    Errors: NoMatchError when there is none, UsageError and MissingExtraError for a URL that cannot be listed.
+    Errors: NoMatchError when there is none; InputError for a URL that cannot be listed, UsageError for one of an
+    unknown kind, MissingExtraError without the package that knows it.
     """
     found = _expand_url(pattern) if is_url(pattern) else _expand_path(pattern)
     if not found:
@@ -73,7 +74,7 @@ def _expand_url(pattern: str) -> list[str]:
         found = [str(name) for name in files.glob(path) if not str(name).endswith("/")]
         return sorted(str(files.unstrip_protocol(name)) for name in found if _is_file(files, name))
     except Exception as error:
-        raise UsageError(f"{shown(pattern)}: cannot be listed: {_told(error)}") from error
+        raise InputError(f"cannot be listed ({_told(error)})", path=shown(pattern)) from error
 
 
 def _is_file(files: Any, name: str) -> bool:
@@ -91,9 +92,12 @@ def read_url(place: str, max_bytes: int | None) -> bytes:
             return read_limited(stream, max_bytes)
     except InputError:
         raise
-    except FileNotFoundError:
-        raise InputError("no such file") from None
     except Exception as error:
+        # fsspec says that there is no such file when a server does not answer, too; the cause tells them apart.
+        if isinstance(error, FileNotFoundError):
+            if error.__cause__ is None or isinstance(error.__cause__, FileNotFoundError):
+                raise InputError("no such file") from None
+            raise InputError(f"the file cannot be read ({_told(error.__cause__)})") from None
         raise InputError(f"the file cannot be read ({_told(error)})") from None
 
 

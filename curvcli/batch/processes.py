@@ -9,12 +9,12 @@ import sys
 import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from queue import SimpleQueue
 from typing import Any
 
 from .._version import __version__
-from .model import Item, Limits, Row, Settings
+from .model import Engine, Item, Limits, Row, Settings
 from .outcome import lost
 
 # One thread each: there are as many workers as processors are meant to be used.
@@ -115,24 +115,29 @@ def _ask(process: subprocess.Popen[bytes], question: object) -> Any:
     return pickle.load(process.stdout)
 
 
-def run_processes(items: Sequence[Item], settings: Settings, limits: Limits, jobs: int) -> Iterator[Row]:
-    """The rows of all items as they end; leaving early ends every worker."""
-    workers = [Worker(limits) for _ in range(min(jobs, len(items)))]
+@contextmanager
+def here(limits: Limits, jobs: int) -> Iterator[Engine]:
+    """The engine that works on this machine with so many workers; leaving ends every one."""
+    workers: list[Worker] = []
     idle: SimpleQueue[Worker] = SimpleQueue()
-    for worker in workers:
-        idle.put(worker)
+    pool = ThreadPoolExecutor(jobs, "curvcli-batch")
 
-    def do(item: Item) -> Row:
+    def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
+        for _ in range(min(jobs, len(items)) - len(workers)):
+            workers.append(Worker(limits))
+            idle.put(workers[-1])
+        for future in as_completed([pool.submit(do, item, settings) for item in items]):
+            yield future.result()
+
+    def do(item: Item, settings: Settings) -> Row:
         worker = idle.get()
         try:
             return worker.run(item, settings)
         finally:
             idle.put(worker)
 
-    pool = ThreadPoolExecutor(len(workers) or 1, "curvcli-batch")
     try:
-        for future in as_completed([pool.submit(do, item) for item in items]):
-            yield future.result()
+        yield engine
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
         for worker in workers:

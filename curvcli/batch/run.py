@@ -19,7 +19,7 @@ from ..loading.recognise import format_of_name
 from ..loading.surfaces import from_file
 from ..output.atomic import Outputs
 from ..output.write import Appearance, write_into
-from ..report.model import Topology, model
+from ..report.model import pieces
 from .model import Item, Limits, Row, Settings
 from .outcome import explained
 from .places import hash_of, is_url, read_url
@@ -37,8 +37,8 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, BaseExcept
     failure: BaseException | None = None
     try:
         analysis = _analysed(item, settings)
+        row = _row(item, analysis)  # first: tables compute more, and a row must not depend on what is saved
         _write(analysis, item)
-        row = _row(item, analysis)
     except Exception as error:
         failure = error
         row = explained(item.path, error, limits)
@@ -97,9 +97,9 @@ def _make(folder: str) -> None:
 
 
 def _row(item: Item, analysis: Analysis) -> Row:
-    report = model(analysis)
+    whole = pieces(analysis, analysis.surface.whole)[0]
     checks: dict[str, Any] = {}
-    for check in report.checks:
+    for check in analysis.checks:
         # One cell per identity: the worst of the whole, the components and the regions.
         known = checks.setdefault(check.name, {"status": check.status, "residual": check.residual})
         if _WORST.index(check.status) < _WORST.index(known["status"]):
@@ -108,8 +108,8 @@ def _row(item: Item, analysis: Analysis) -> Row:
         path=item.path,
         sha256=analysis.surface.file.sha256 if analysis.surface.file else None,
         status="ok" if analysis.passed else "failed_checks",
-        topology={key: getattr(report.topology, key) for key in Topology.__struct_fields__},
-        totals=msgspec.to_builtins(report.totals),
+        topology=msgspec.to_builtins(whole.topology),
+        totals=whole.totals,
         checks=checks,
     )
 

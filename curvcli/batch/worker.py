@@ -8,14 +8,17 @@ import os
 import pickle
 import signal
 import sys
+import threading
 import warnings
+from queue import SimpleQueue
+from typing import BinaryIO
 
 from .._version import __version__
 from .model import Item, Limits, Settings
 
 
 def main() -> None:
-    """Work until stdin ends, which it does with the parent, however that ended."""
+    """Work until stdin ends, which it does with the parent, however that ended; then end at once, work or not."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the parent decides
     tasks = sys.stdin.buffer
     # Whatever a library prints must not come between the rows.
@@ -23,6 +26,8 @@ def main() -> None:
     os.dup2(2, 1)
     warnings.simplefilter("ignore")
     limits: Limits = pickle.load(tasks)
+    todo: SimpleQueue[tuple[Item, Settings]] = SimpleQueue()
+    threading.Thread(target=_listen, args=(tasks, todo), daemon=True).start()
 
     from ..memory import ran_out
     from ..pipeline import load_passes
@@ -36,14 +41,19 @@ def main() -> None:
         _limit(limits.memory)
     _answer(answers, __version__)
     while True:
-        try:
-            task: tuple[Item, Settings] = pickle.load(tasks)
-        except EOFError:
-            return
-        row, failure = run(*task, limits)
+        row, failure = run(*todo.get(), limits)
         _answer(answers, row)
         if failure is not None and ran_out(failure):
             return  # memory in pieces serves nobody; the next mesh gets a fresh process
+
+
+def _listen(tasks: BinaryIO, todo: SimpleQueue[tuple[Item, Settings]]) -> None:
+    """Take tasks while the worker works, so that it does not outlive its parent, be it at work for ever."""
+    while True:
+        try:
+            todo.put(pickle.load(tasks))
+        except BaseException:
+            os._exit(0)
 
 
 def _answer(stream: object, answer: object) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from contextlib import AbstractContextManager, ExitStack
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -14,8 +15,8 @@ from ..errors import UsageError
 from . import options
 
 if TYPE_CHECKING:
-    from ..batch.batch import Batch, Engine
-    from ..batch.model import Item, Limits, Row, Settings
+    from ..batch.batch import Batch
+    from ..batch.model import Engine, Item, Limits
 
 
 @click.command("batch", short_help="Analyse many meshes: workers, timeouts, resume, a summary.")
@@ -104,30 +105,28 @@ def run(
         raise UsageError("--save regions: there are none without --regions")
     how = Settings(passes=chosen, save=wanted, weld=options.welding(weld), **conventions)
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
-    engine = _engine(scheduler, jobs, limits)
     items = plan(patterns, files_from, folder, wanted)
-    with Manifest(folder, resume=resume, force=force) as manifest:
-        batch = Batch(items, how, folder, manifest, strict)
-        todo = batch.todo()
-        try:
-            _work(batch, engine, todo, quiet)
-        finally:
-            batch.summarise()
-            if not quiet:
-                _tell(batch, len(todo))
+    # A scheduler that does not answer leaves no folder behind.
+    with ExitStack() as workers:
+        engine = workers.enter_context(_engine(scheduler, jobs, limits))
+        with Manifest(folder, resume=resume, force=force) as manifest:
+            batch = Batch(items, how, folder, manifest, strict)
+            todo = batch.todo()
+            try:
+                _work(batch, engine, todo, quiet)
+            finally:
+                workers.close()
+                batch.finish()
+                if not quiet:
+                    _tell(batch, len(todo))
     return worst([row.exit_code for row in batch.rows])
 
 
-def _engine(scheduler: str | None, jobs: int | None, limits: Limits) -> Engine:
-    from ..batch.processes import run_processes
-
+def _engine(scheduler: str | None, jobs: int | None, limits: Limits) -> AbstractContextManager[Engine]:
     if scheduler is None:
-        count = jobs or _processors()
+        from ..batch.processes import here
 
-        def here(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
-            return run_processes(items, settings, limits, count)
-
-        return here
+        return here(limits, jobs or _processors())
     if jobs is not None:
         raise UsageError("-j counts workers here, --scheduler has its own; choose one")
     from ..batch.dask import connect
