@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from .analysis import Analysis
 from .declare import Quantity
 from .errors import UsageError
+from .report.check import number
 from .report.quantities import public
 from .report.statistics import statistics
 
@@ -49,9 +50,7 @@ class Assertion:
     @property
     def name(self) -> str:
         """As it is written after --assert."""
-        bound = f"{self.bound:.15g}"
-        bound = bound if float(bound) == self.bound else repr(self.bound)
-        return f"{self.statistic}({self.column}) {self.comparison} {bound}"
+        return f"{self.statistic}({self.column}) {self.comparison} {number(self.bound)}"
 
     def judge(self, analysis: Analysis) -> tuple[bool, float | None, str]:
         """Whether it holds, the statistic's value (None where undefined), and both in words."""
@@ -121,16 +120,16 @@ def parse(text: str) -> Assertion:
     match = _SHAPE.fullmatch(text)
     if match is None:
         raise UsageError(f"assertion {text!r}: expected STAT(COLUMN) OP NUMBER, such as 'absmax(h_signed) <= 50'")
-    statistic, column, comparison, number = match.groups()
+    statistic, column, comparison, bound = match.groups()
     _known(text, "statistic", statistic, STATISTICS)
     if comparison not in OPERATORS:
         raise UsageError(f"assertion {text!r}: no comparison {comparison!r}, expected one of {' '.join(OPERATORS)}")
-    if not _NUMBER.fullmatch(number) or not math.isfinite(float(number)):
-        raise UsageError(f"assertion {text!r}: {number!r} is not a number that a double holds")
+    if not _NUMBER.fullmatch(bound) or not math.isfinite(float(bound)):
+        raise UsageError(f"assertion {text!r}: {bound!r} is not a number that a double holds")
     quantity = _quantity(text, column)
     if statistic == "area_mean" and quantity.on == "edge":
         raise UsageError(f"assertion {text!r}: edges have no area to weigh {column} by; use mean")
-    return Assertion(statistic, quantity, column, comparison, float(number))
+    return Assertion(statistic, quantity, column, comparison, float(bound))
 
 
 def _quantity(text: str, column: str) -> Quantity:

@@ -18,7 +18,6 @@ from .report.check import (
     FAIL,
     IDENTITY,
     INPUT,
-    NOT_APPLICABLE,
     PASS,
     REQUIREMENT,
     CheckedMesh,
@@ -95,8 +94,9 @@ def plan(require: Iterable[str] = (), allow: Iterable[str] = (), asserted: Itera
 
 def judge(analysis: Analysis, chosen: Plan, path: str) -> CheckedMesh:
     """Every check of the plan on an analysis that tested the plan's identities."""
+    flaw = requirements.kinds["manifold"].test(analysis)
     outcomes = [
-        *(_of_identity(check) for check in analysis.checks),
+        *(_of_identity(check, flaw) for check in analysis.checks),
         *(_of_requirement(one, analysis) for one in chosen.requirements),
         *(_of_assertion(one, analysis) for one in chosen.assertions),
     ]
@@ -113,8 +113,15 @@ def judge(analysis: Analysis, chosen: Plan, path: str) -> CheckedMesh:
     )
 
 
-def _of_identity(check: Check) -> Outcome:
-    message = {PASS: _statement(check.name), NOT_APPLICABLE: check.detail}.get(check.status) or _gap(check)
+def _of_identity(check: Check, flaw: str) -> Outcome:
+    """flaw: what of the mesh a failure may come from."""
+    match check.status:
+        case "pass":
+            message = _statement(check.name)
+        case "fail":
+            message = "; ".join(part for part in (_gap(check), check.detail, flaw) if part)
+        case _:
+            message = check.detail
     return Outcome(
         check.name,
         IDENTITY,
@@ -129,7 +136,7 @@ def _of_identity(check: Check) -> Outcome:
 
 
 def _gap(check: Check) -> str:
-    """What a failing identity found: `ΣK + Σκ_g − 2πχ = 3.14159 (allowed 2e-11); χ = 2`."""
+    """What a failing identity found: `ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)`."""
     name = _GAPS.get(check.name, "residual")
     found, sides = check.residual, (check.value, check.expected)
     if isinstance(sides[0], float) and isinstance(sides[1], float) and abs(sides[0] - sides[1]) == found:
@@ -138,7 +145,7 @@ def _gap(check: Check) -> str:
         name = f"|{name}|"
     size = "undefined" if found is None else f"{found:.5g}"
     bound = "undefined" if check.tolerance is None else f"{check.tolerance:.1g}"
-    return f"{name} = {size} (allowed {bound})" + (f"; {check.detail}" if check.detail else "")
+    return f"{name} = {size} (allowed {bound})"
 
 
 def _statement(name: str) -> str:

@@ -102,6 +102,12 @@ def sentence(mesh: CheckedMesh, outcome: Outcome) -> str:
     return f"{printable(mesh.path)}: {printable(said)}"
 
 
+def number(value: float) -> str:
+    """The shortest text of a number that reads back, as a person would write it."""
+    text = f"{value:.15g}"
+    return text if float(text) == value else repr(value)
+
+
 def printable(text: str) -> str:
     """Text on one line that every format can hold: control characters and stray bytes are shown escaped."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)

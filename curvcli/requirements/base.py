@@ -10,6 +10,7 @@ from typing import Literal
 
 from ..analysis import Analysis
 from ..errors import UsageError
+from ..report.check import number
 
 Test = Callable[..., str]
 Number = Literal["", "N", "TOL"]
@@ -46,7 +47,7 @@ class Requirement:
     @property
     def name(self) -> str:
         """As it is written after --require, such as `genus=1`."""
-        return self.kind.name if self.value is None else f"{self.kind.name}={self.value!r}"
+        return self.kind.name if self.value is None else f"{self.kind.name}={number(self.value)}"
 
     def problem(self, analysis: Analysis) -> str:
         """What is wrong, with the first place; empty where the requirement is met."""
@@ -79,7 +80,7 @@ def parse(texts: Iterable[str]) -> list[Requirement]:
 
 
 def _parse_one(text: str) -> Requirement:
-    name, equals, number = (part.strip() for part in text.partition("="))
+    name, equals, text_of_value = (part.strip() for part in text.partition("="))
     kind = kinds.get(name)
     if kind is None:
         near = get_close_matches(name, kinds, 3, 0.4) or [one.usage for one in kinds.values()]
@@ -90,7 +91,7 @@ def _parse_one(text: str) -> Requirement:
         return Requirement(kind)
     wanted = "a whole number" if kind.number == "N" else "a tolerance of 0 or more"
     try:
-        value = int(number) if kind.number == "N" else float(number)
+        value = int(text_of_value) if kind.number == "N" else float(text_of_value)
     except ValueError:
         raise UsageError(f"requirement {text}: expected {kind.usage} with {wanted}") from None
     if kind.number == "TOL" and not 0 <= value < math.inf:
