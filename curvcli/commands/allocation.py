@@ -1,0 +1,27 @@
+"""How the process of a command keeps its memory; a library must not decide this for its program."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+_M_TRIM_THRESHOLD, _M_MMAP_MAX = -1, -4  # of glibc's mallopt
+
+
+def keep_memory() -> None:
+    """Keep what has been allocated, and do without huge pages; call it before numpy is imported.
+
+    The first touch of memory costs about as much as the arithmetic on it. By default every large array is given back
+    when it is let go, and the next one is touched for the first time again.
+    """
+    os.environ.setdefault("NUMPY_MADVISE_HUGEPAGE", "0")
+    if not sys.platform.startswith("linux"):
+        return
+    import ctypes
+
+    try:
+        mallopt = ctypes.CDLL(None).mallopt
+    except (AttributeError, OSError):
+        return  # a C library of another kind
+    mallopt(_M_MMAP_MAX, 0)
+    mallopt(_M_TRIM_THRESHOLD, -1)
