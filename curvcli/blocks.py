@@ -31,6 +31,13 @@ LARGE_STAR = 32
 # Below this ratio of twice the area to the longest edge squared, the cross product is worth its compensated form.
 _THIN = 1 / 16
 
+# Below this a square has lost digits to underflow.
+_SMALL_SQUARE = 2.0**-960
+# Areas below this count as none: their inverse would leave the range of doubles.
+NO_AREA = 2.0**-1000
+# A face whose longest edge has a square below this is a point: products of its edges would be lost to underflow.
+_NO_LENGTH = 2.0**-480
+
 
 def cross(a: Vector, b: Vector) -> list[Floats]:
     """a × b of vectors given by their components."""
@@ -60,6 +67,11 @@ class Triangles:
     cosines: tuple[Floats, Floats, Floats]
     degenerate: Mask | None
 
+    @property
+    def is_point(self) -> Mask:
+        """Faces so small that not even their angles are known."""
+        return np.asarray(self.cosines[0] + self.cosines[1] + self.cosines[2] < _NO_LENGTH)
+
     def opposite(self, corner: int) -> Vector:
         """The edge opposite a corner, counterclockwise."""
         return (self.v, [-x for x in self.w], self.u)[corner]
@@ -80,19 +92,31 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
     cosines = dot(u, w), -dot(u, v), dot(w, v)
     # |u|² = cos₀ + cos₁ and so on: the longest is the sum without the smallest.
     longest = cosines[0] + cosines[1] + cosines[2] - np.minimum(np.minimum(cosines[0], cosines[1]), cosines[2])
-    thin = np.flatnonzero(square <= (_THIN * longest) ** 2)
-    degenerate = None
+    thin = np.flatnonzero(square <= (_THIN * longest) ** 2 + _SMALL_SQUARE)
+    degenerate, twice_area = None, np.sqrt(square)
     if len(thin):
         exact = cross_of_edges(*([x[thin] for x in corner] for corner in (p, q, r)))
+        area = _length(exact)
         for component, better in zip(normal, exact, strict=True):
-            component[thin] = better
-        square[thin] = dot(exact, exact)
+            component[thin] = np.where(area < NO_AREA, 0.0, better)
+        twice_area[thin] = np.where(area < NO_AREA, 0.0, area)
         lengths = [dot(edge, edge) for edge in ([x[thin] for x in side] for side in (u, v, w))]
-        small = np.sqrt(square[thin]) <= 4 * EPSILON * np.maximum(np.maximum(lengths[0], lengths[1]), lengths[2])
+        longest = np.maximum(np.maximum(lengths[0], lengths[1]), lengths[2])
+        small = (area <= np.maximum(4 * EPSILON * longest, NO_AREA)) | (longest < _NO_LENGTH)
         if small.any():
             degenerate = np.zeros(len(faces), bool)
             degenerate[thin[small]] = True
-    return Triangles(u, v, w, normal, np.sqrt(square), cosines, degenerate)
+    return Triangles(u, v, w, normal, twice_area, cosines, degenerate)
+
+
+def _length(vector: Vector) -> Floats:
+    """|v|, also where its square is lost to underflow."""
+    square = dot(vector, vector)
+    length: Floats = np.sqrt(square)
+    tiny = np.flatnonzero(square < _SMALL_SQUARE)
+    if len(tiny):
+        length[tiny] = np.hypot(np.hypot(vector[0][tiny], vector[1][tiny]), vector[2][tiny])
+    return length
 
 
 def face_blocks(count: int, size: int = FACES_PER_BLOCK) -> Iterator[slice]:
@@ -192,8 +216,8 @@ def _resum_large_stars(surface: Surface, angle: Floats) -> None:
 
 
 def _mark_coincident(coincident: Mask, face: NDArray[np.intp], t: Triangles) -> None:
-    """Mark corners that lie exactly on another corner of their face: their angle there has no meaning."""
+    """Mark corners that lie on another corner of their face: their angle there has no meaning."""
     for edge, (a, b) in ((t.u, (0, 1)), (t.v, (1, 2)), (t.w, (0, 2))):
-        zero = (edge[0] == 0) & (edge[1] == 0) & (edge[2] == 0)
+        zero = (edge[0] == 0) & (edge[1] == 0) & (edge[2] == 0) | t.is_point
         coincident[face[a][zero]] = True
         coincident[face[b][zero]] = True

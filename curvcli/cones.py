@@ -48,6 +48,9 @@ def normal_cone_areas(directions: Floats, hint: Floats) -> Floats:
 
 def _axes(unit: Floats, hint: Floats) -> tuple[Floats, Mask]:
     """(3, n) a vector with a positive product with every direction, and whether there is one."""
+    if dot(hint, hint).min() < _UNDERFLOW:
+        size = np.abs(hint).max(axis=0)
+        hint = np.divide(hint, size, where=size > 0, out=np.zeros_like(hint))
     product = dot(unit, hint[:, None])
     lowest, highest = product.min(axis=0), product.max(axis=0)
     axis = np.where(highest < 0, -hint, hint)

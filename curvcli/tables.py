@@ -41,7 +41,9 @@ def vertex_table(analysis: Analysis) -> Table:
     """One row per vertex of the file: index, position, status, then the columns in the order of the theory."""
     surface = analysis.surface
     table: Table = {"vertex": np.arange(surface.n_vertices, dtype=np.int32)}
-    table |= dict(zip("xyz", surface.xyz_given, strict=True))
+    xyz = surface.xyz_given
+    # Only a vertex that no face uses may have coordinates that are no numbers.
+    table |= dict(zip("xyz", xyz if surface.referenced.all() else np.where(np.isfinite(xyz), xyz, np.nan), strict=True))
     computed = vertex_properties(analysis)
     if "status" in computed:
         table["status"] = computed.pop("status")

@@ -10,7 +10,7 @@ from ..declare import Column, VectorColumn
 from ..groups import Groups
 from ..surface import Surface
 from ..totals import volumes
-from .balance import vector_sum
+from .balance import offsets, vector_sum
 from .base import Outcome, check, exclude_null, rounding
 
 
@@ -19,7 +19,7 @@ def area_gradient(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, edge_length: Column
 ) -> Outcome:
     """Σ ∇_p area = 0 and Σ p·∇_p area = 2 area: area is invariant under translation and of degree two in scale."""
-    arm = surface.xyz - surface.base[:, None]
+    arm = offsets(surface)
     distance = np.sqrt(dot(arm, arm))
     value = groups.vertices.sum(dot(arm, area_gradient))
     expected = 2 * groups.faces.sum(face_area)
@@ -37,7 +37,8 @@ def area_gradient(
     # Both must hold: a drift beyond its bound is carried into the residual, in units of its own bound.
     residual = np.abs(value - expected)
     over = drift > drift_tolerance
-    residual = np.where(over, np.maximum(residual, tolerance * drift / drift_tolerance), residual)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        residual = np.where(over, np.maximum(residual, tolerance * drift / drift_tolerance), residual)
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)
     exclude_null(outcome, groups, surface, np.isnan(area_gradient[0]), "area_gradient")
     return outcome
@@ -47,7 +48,7 @@ def area_gradient(
 def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column) -> Outcome:
     """Σ p·A_p = 3 vol on closed orientable surfaces."""
     counts = census(surface, groups)
-    arm = surface.xyz - surface.base[:, None]
+    arm = offsets(surface)
     distance = np.sqrt(dot(arm, arm))
     value = groups.vertices.sum(dot(arm, A_vec))
     expected = 3 * volumes(surface, groups)

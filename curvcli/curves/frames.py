@@ -68,7 +68,8 @@ def transport_angle(turning: Turning, field: Floats) -> Floats:
     carried = field[:, curves.preceding]
     with np.errstate(divide="ignore", invalid="ignore"):
         # Of a vector normal to T the rotation is the reflection in the plane normal to T + T′.
-        carried = carried - mirror * (2 * dot(mirror, carried) / dot(mirror, mirror))
+        square = np.where(turning.reversed, np.nan, dot(mirror, mirror))
+        carried = carried - mirror * (2 * dot(mirror, carried) / square)
     angle = np.arctan2(dot(tangent, cross(carried, field)), dot(carried, field))
     return np.where(curves.inner & ~turning.reversed, angle, np.nan)
 

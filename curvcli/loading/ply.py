@@ -45,7 +45,7 @@ def _corner_property(element: Element) -> str:
             if p.type.kind == "f":
                 raise InputError(f"`{p.name}` holds fractions, an integer type expected", place="header")
             return p.name
-    raise InputError(f"element `{element.name}` without a list `vertex_indices` found", place="header")
+    raise InputError(f"element `{element.name[:40]}` without a list `vertex_indices` found", place="header")
 
 
 def _read_binary(data: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
@@ -98,7 +98,7 @@ def _checked(
 ) -> NDArray[np.int32]:
     """The indices, all of them whole and within the list of vertices."""
     if indices.dtype.kind == "f":
-        fraction = np.flatnonzero(indices != np.floor(indices))
+        fraction = np.flatnonzero((indices != np.floor(indices)) | np.isinf(indices))
         if len(fraction):
             row = int(np.searchsorted(np.cumsum(sizes), fraction[0], side="right"))
             found = f"{indices[fraction[0]]:g}"

@@ -93,14 +93,16 @@ def parse_header(data: bytes) -> Header:
                 continue
             case ["format", str(name), *_]:
                 if name not in _ORDER:
-                    raise InputError(f"format `{name}` found, one of {', '.join(_ORDER)} expected", place=place)
+                    raise InputError(f"format `{name[:40]}` found, one of {', '.join(_ORDER)} expected", place=place)
                 order = name
             case ["element", str(name), str(count)]:
                 elements.append((name, _count(count, place), []))
             case ["property", "list", str(length), str(kind), str(name)] if elements and order:
                 length_type = _type(length, order, place)
                 if length_type.kind == "f":
-                    raise InputError(f"list length of type `{length}` found, an integer type expected", place=place)
+                    raise InputError(
+                        f"list length of type `{length[:40]}` found, an integer type expected", place=place
+                    )
                 elements[-1][2].append(Property(name, _type(kind, order, place), length_type))
             case ["property", str(kind), str(name)] if elements and order:
                 elements[-1][2].append(Property(name, _type(kind, order, place)))
@@ -111,7 +113,7 @@ def parse_header(data: bytes) -> Header:
     names = Counter(name for name, _, _ in elements)
     for name, times in names.items():
         if times > 1:
-            raise InputError(f"element `{name}` announced {times} times, once expected", place="header")
+            raise InputError(f"element `{name[:40]}` announced {times} times, once expected", place="header")
     # Old Mac line ends: a line feed after the last one belongs to the data.
     body = end.end() - (newline == b"\r" and end[1] == b"\r\n")
     return Header(
@@ -130,5 +132,5 @@ def _count(text: str, place: str) -> int:
 
 def _type(name: str, order: str, place: str) -> np.dtype[np.generic]:
     if name not in _TYPES:
-        raise InputError(f"type `{name}` found, one of {', '.join(_TYPES)} expected", place=place)
+        raise InputError(f"type `{name[:40]}` found, one of {', '.join(_TYPES)} expected", place=place)
     return np.dtype(_ORDER[order] + _TYPES[name])

@@ -86,7 +86,7 @@ def _is_convex(p: NDArray[np.float64]) -> NDArray[np.bool_]:
     p: (3, n, k). Corners that are not finite count as convex: whoever uses them refuses them.
     """
     d = _from_first(p)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", over="ignore"):
         normal = _area_vectors(d)[:, :, None]
         step = np.roll(d, -1, 2) - d
         turn = (_cross(step, np.roll(step, -1, 2)) * normal).sum(0)

@@ -1,0 +1,112 @@
+"""Thousands of damaged files, each read or refused as promised; the same ones in every run."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import tracemalloc
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import curvcli
+from tests.fuzz.cases import Case, mutated, noise, sound
+from tests.fuzz.contract import Ran, arguments, in_process, kept
+from tests.fuzz.corpus import FOLDER, load
+
+MEGABYTE = 1 << 20
+
+
+def held(cases: st.SearchStrategy[Case], folder: Path, many: int, run: Any = in_process) -> Counter[str]:
+    """How many cases were read and how many refused, all within the contract."""
+    counts: Counter[str] = Counter()
+
+    @settings(
+        max_examples=many, deadline=20_000, derandomize=True, database=None, suppress_health_check=list(HealthCheck)
+    )
+    @given(case=cases)
+    def one(case: Case) -> None:
+        counts[kept(case, folder / "work", run)] += 1
+
+    one()
+    assert counts.total() >= many
+    return counts
+
+
+@pytest.mark.parametrize("part", range(2))
+def test_whole_files(tmp_path: Path, part: int) -> None:
+    counts = held(sound().filter(lambda case: len(case.data) % 2 == part), tmp_path, 250)
+    assert counts["read"] > 60
+
+
+@pytest.mark.parametrize(("kind", "read"), [("obj", 40), ("ply", 15), ("stl", 30), ("strips", 5)])
+def test_damaged_files(tmp_path: Path, kind: str, read: int) -> None:
+    counts = held(mutated(kind), tmp_path, 350)
+    assert counts["read"] >= read
+    assert counts["refused"] > 100
+
+
+def test_noise(tmp_path: Path) -> None:
+    counts = held(noise(), tmp_path, 250)
+    assert counts["refused"] > 150
+
+
+@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.case")), ids=lambda path: path.stem)
+def test_what_once_broke_the_contract(tmp_path: Path, path: Path) -> None:
+    assert kept(load(path), tmp_path / "work") in ("read", "refused")
+
+
+def real(words: list[str]) -> Ran:
+    """Run curvcli as a process of its own, which has a minute, and 200 MB beside 20 times the file."""
+    environment = os.environ | {
+        "PYTHONPATH": str(Path(curvcli.__file__).parents[1]),
+        "PYTHONWARNINGS": "error::RuntimeWarning",
+    }
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        process = subprocess.Popen([sys.executable, "-m", "curvcli", *words], stdout=out, stderr=err, env=environment)
+        watch = threading.Timer(60, process.kill)
+        watch.start()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        watch.cancel()
+        out.seek(0)
+        err.seek(0)
+        ran = Ran(process.returncode, out.read(), err.read().decode())
+    assert usage.ru_maxrss * 1024 < 200 * 10**6 + 20 * Path(words[1]).stat().st_size + 2 * MEGABYTE
+    return ran
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory of a process is told differently elsewhere")
+@pytest.mark.parametrize("what", ["whole", "damaged"])
+def test_real_processes(tmp_path: Path, what: str) -> None:
+    kinds = st.one_of(*(mutated(kind) for kind in ("obj", "ply", "stl", "strips")), noise())
+    counts = held(sound() if what == "whole" else kinds, tmp_path, 15, real)
+    assert counts["read" if what == "whole" else "refused"] > 3
+
+
+def test_memory_is_in_proportion(tmp_path: Path) -> None:
+    """Nothing that a small file says makes curvcli ask for much memory."""
+    kinds = [mutated(kind) for kind in ("obj", "ply", "stl", "strips")]
+    in_process(
+        arguments(Case("mesh.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", options=("-p", "all")), tmp_path / "work")
+    )
+
+    def measured(words: list[str]) -> Ran:
+        size = Path(words[1]).stat().st_size
+        tracemalloc.start()
+        try:
+            ran = in_process(words)
+            _, peak = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+        assert peak < 32 * MEGABYTE + 200 * size, (peak, size)
+        return ran
+
+    held(st.one_of(*kinds), tmp_path, 60, measured)
