@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,29 @@ def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: s
     What is odd under reversal of the orientation is NaN on groups that have none; nulls in a column are left out.
     """
     found: dict[str, Floats] = {}
+    for key, total, length_exponent, mean_degree in _computed(surface, groups, columns):
+        shown = surface.in_file_unit(total, length_exponent)
+        found[key] = shown * 0.5**mean_degree if mean == "average" else shown
+    return found
+
+
+def lost_totals(surface: Surface, columns: Mapping[str, Any]) -> list[str]:
+    """Keys of the totals of the whole surface that are defined, but beyond the range of doubles in the file's unit."""
+    if not surface.unit_exponent:
+        return []
+    each = _computed(surface, surface.whole, columns)
+    return [key for key, total, length_exponent, _ in each if lost(surface, total, length_exponent)]
+
+
+def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
+    """How many values are defined, but beyond the range of doubles in the file's unit."""
+    if not surface.unit_exponent * length_exponent:
+        return 0
+    return int(np.count_nonzero(np.isnan(surface.in_file_unit(values, length_exponent)) & ~np.isnan(values)))
+
+
+def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> Iterator[tuple[str, Floats, int, int]]:
+    """Key, values in the unit of computation, length exponent and degree in H of every total."""
     orientable = census(surface, groups).orientable
     for quantity in passes.quantities(public=False):
         if quantity.total is None or quantity.name not in columns:
@@ -42,11 +65,9 @@ def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: s
         total = _sum(groups, quantity, columns[quantity.name])
         if quantity.parity == "odd":
             total = np.where(orientable if total.ndim == 1 else orientable[:, None], total, np.nan)
-        total = surface.in_file_unit(total, quantity.length_exponent)
-        found[quantity.total] = total * 0.5**quantity.mean_degree if mean == "average" else total
+        yield quantity.total, total, quantity.length_exponent, quantity.mean_degree
         if quantity.total == "area":
-            found["volume"] = surface.in_file_unit(volumes(surface, groups), 3)
-    return found
+            yield "volume", volumes(surface, groups), 3, 0
 
 
 def _sum(groups: Groups, quantity: Quantity, column: Any) -> Floats:

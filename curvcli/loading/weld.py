@@ -29,7 +29,8 @@ def welded(mesh: MeshFile, weld: str | float) -> MeshFile:
         lowest = weld_within(mesh.xyz, float(weld))
     to = np.where(lowest == np.arange(len(lowest)), np.int32(-1), lowest)
     merged = np.flatnonzero(to >= 0)
-    notice = Notice("welded", len(merged), "vertices are merged with an earlier one", None, tuple(merged[:5].tolist()))
+    message = "vertices are merged with an earlier one, whose row holds their values"
+    notice = Notice("welded_vertices", len(merged), message, None, tuple(merged[:5].tolist()))
     return replace(
         mesh,
         corners=lowest[mesh.corners],

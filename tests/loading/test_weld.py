@@ -81,7 +81,7 @@ def test_rows_stay_and_corners_move() -> None:
     assert exact.welded_to.tolist() == [-1, -1, -1, 0, -1, -1]
     assert exact.corners.tolist() == [0, 1, 2, 4, 1, 5, 0, 1, 5]
     assert exact.polylines[0].tolist() == [0, 4]
-    assert [(n.code, n.count, n.examples) for n in exact.notices] == [("welded", 1, (3,))]
+    assert [(n.code, n.count, n.examples) for n in exact.notices] == [("welded_vertices", 1, (3,))]
     near = welded(mesh, 1e-4)
     assert near.welded_to is not None
     assert near.welded_to.tolist() == [-1, -1, -1, 0, 2, -1]
