@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import wraps
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +15,7 @@ from .surface import Surface
 
 Counts = NDArray[np.int64]
 Mask = NDArray[np.bool_]
+Found = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -103,6 +106,22 @@ def classify(surface: Surface, groups: Groups) -> Classification:
     )
 
 
+def _once(find: Callable[[Surface], Found]) -> Callable[[Surface], Found]:
+    """Remember what was found on a surface: notices, requirements and the report all ask for it."""
+
+    @wraps(find)
+    def remembered(surface: Surface) -> Found:
+        kept = surface.__dict__.setdefault("_found", {})
+        if find.__name__ not in kept:
+            kept[find.__name__] = find(surface)
+            kept[find.__name__].setflags(write=False)
+        found: Found = kept[find.__name__]
+        return found
+
+    return remembered
+
+
+@_once
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     """Referenced vertices beyond the first at exactly the same position."""
     index = np.flatnonzero(surface.referenced)
@@ -113,6 +132,7 @@ def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     return index[again]
 
 
+@_once
 def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     """Faces beyond the first with the same three corners in any order."""
     key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)

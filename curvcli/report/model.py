@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from .._version import __version__
 from ..census import census, classify, duplicate_faces, duplicate_vertices
@@ -194,7 +195,7 @@ def model(analysis: Analysis) -> Report:
         cmc=whole.cmc,
         minimal=whole.minimal,
         normals=whole.normals,
-        components=pieces(analysis, surface.components),
+        components=[_alone(whole)] if surface.components.count == 1 else pieces(analysis, surface.components),
         loops=loops(analysis),
         regions=pieces(analysis.cut, analysis.cut_groups) if analysis.cut is not None else [],
         columns=_columns(analysis),
@@ -218,6 +219,11 @@ def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
         )
         for group in range(groups.count)
     ]
+
+
+def _alone(whole: Piece) -> Piece:
+    """The only component of a surface, from the surface itself: a component has no vertices that no face uses."""
+    return replace(whole, topology=replace(whole.topology, unreferenced_vertices=0))
 
 
 def loops(analysis: Analysis) -> list[dict[str, Any]]:
