@@ -1,0 +1,39 @@
+"""What the identities of a report prove about the mesh, and what they cannot."""
+
+from __future__ import annotations
+
+from .model import CheckRow, Report
+
+
+def proof(report: Report) -> str:
+    """One or two sentences for people: what holds, what is not tested, what fails, and what no identity can see."""
+    failed = [row for row in report.checks if row.status == "fail"]
+    if failed:
+        return _distrust(failed)
+    flaws = len(report.warnings)
+    mind = f"mind the {flaws} warnings above" if flaws > 1 else "mind the warning above"
+    limits = (
+        f"they hold on flawed meshes too: {mind}" if flaws else "none can tell whether the mesh is the one you meant"
+    )
+    main = next((row for row in report.checks if row.name == "gauss_bonnet" and row.scope == "whole"), None)
+    if main is not None and main.status == "pass":
+        return f"Gauss–Bonnet certifies ΣK and χ, the other identities the columns they sum; {limits}."
+    why = f": {main.detail}" if main is not None else ", it is not tested"
+    return f"Gauss–Bonnet certifies nothing here{why}. Identities that pass certify the columns they sum; {limits}."
+
+
+def holds(report: Report) -> bool:
+    """Whether no identity fails."""
+    return all(row.status != "fail" for row in report.checks)
+
+
+def _distrust(failed: list[CheckRow]) -> str:
+    """What a failure means: rounding is allowed for, so it is in the numbers."""
+    names = sorted({row.name for row in failed})
+    scopes = sorted({row.scope for row in failed} - {"whole"})
+    where = f" on {scopes[0]}" if len(scopes) == 1 else f" on {len(scopes):,} pieces" if scopes else ""
+    verb = "does" if len(names) == 1 else "do"
+    return (
+        f"{', '.join(names)} {verb} not hold{where}, by more than rounding explains: do not trust the columns they sum. "
+        "No flaw of a mesh does that, only numbers at the limits of doubles or a defect of curvcli: please report it."
+    )
