@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.table import Table
 
+from curvcli.commands.allocation import keep_memory
+
 from .harness import CONSOLE, Case, Results, interleaved, python, report, show, times
 from .meshes import Mesh
 
@@ -111,6 +113,7 @@ def _milliseconds(results: Results, row: str) -> str:
 
 
 if __name__ == "__main__":
+    keep_memory()
     if sys.argv[1] == "passes":
         each_pass(sys.argv[2])
     else:
