@@ -36,11 +36,7 @@ if TYPE_CHECKING:
     help="Write another table: edges, faces, loops, regions or components; repeatable.",
 )
 @options.passes
-@click.option(
-    "--regions",
-    metavar="FILE|groups|objects|materials|PROPERTY",
-    help="One label per face: every integral and every check is then reported per region too.",
-)
+@options.regions
 @options.reading
 @click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")

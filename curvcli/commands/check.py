@@ -46,11 +46,7 @@ _TOLD = 20
     help="Compare a column's min, max, absmax, mean, area_mean, sum, p02 or p98 by < <= > >= == or != with a number; "
     "repeatable.",
 )
-@click.option(
-    "--regions",
-    metavar="FILE|groups|objects|materials|PROPERTY",
-    help="One label per face: every identity is then checked per region too.",
-)
+@options.regions
 @options.reading
 @click.option(
     "--format",

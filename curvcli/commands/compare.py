@@ -64,11 +64,7 @@ _CONVENTIONS = ("passes", "area", "mean", "orient", "weld", "unit", "regions")
     "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
 )
 @options.passes
-@click.option(
-    "--regions",
-    metavar="FILE|groups|objects|materials|PROPERTY",
-    help="One label per face: integrals and checks are compared per region too.",
-)
+@options.regions
 @options.reading
 @options.force
 @options.talking

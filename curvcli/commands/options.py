@@ -60,6 +60,11 @@ weld = click.option(
     show_default=True,
     help="Merge vertices at equal positions; auto: STL exact, OBJ and PLY not; TOL: relative to the bounding box.",
 )
+regions = click.option(
+    "--regions",
+    metavar="FILE|groups|objects|materials|PROPERTY",
+    help="One label per face: every integral and every check is then taken per region too.",
+)
 unit = click.option("--unit", metavar="NAME", help="Name of the unit of length, for tables and legends.")
 input_format = click.option(
     "--input-format", type=click.Choice(["obj", "ply", "stl"]), help="Format of the input, whatever its name."
