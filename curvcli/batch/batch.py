@@ -26,7 +26,7 @@ _AGAIN = ("timeout", "crashed", "out_of_memory")
 
 @dataclass
 class Batch:
-    """The meshes of a plan and what is known of each: `todo` after a resume, `rows` in the order of the plan.
+    """The meshes of a plan: `todo` after a resume, `work`, and once it is finished `rows` in the order of the plan.
 
     strict: a failed check gives exit code 1 to its mesh.
     """
@@ -40,7 +40,8 @@ class Batch:
     def __post_init__(self) -> None:
         self._options = self.settings.digest()
         self._paths = {item.path: item for item in self.items}
-        self._rows: dict[str, Row] = {}
+        self._kept: dict[str, Row] = {}
+        self.rows: list[Row] = []
         _sweep(self.items)
 
     def todo(self) -> list[Item]:
@@ -49,7 +50,7 @@ class Batch:
             done = list(pool.map(self._done, self.items))
         for item, row in zip(self.items, done, strict=True):
             if row is not None:
-                self._rows[item.path] = self._coded(row)
+                self._kept[item.path] = self._coded(row)
         return [item for item, row in zip(self.items, done, strict=True) if row is None]
 
     def work(self, engine: Engine, todo: Sequence[Item]) -> Iterator[Row]:
@@ -58,18 +59,15 @@ class Batch:
             row.options = self._options
             if row.status in _WRITTEN:
                 row.outputs = self._shown(self._paths[row.path])
-            row = self.manifest.append(self._coded(row))
-            self._rows[row.path] = row
+            row = self._coded(row)
+            self.manifest.append(row)
             yield row
-
-    @property
-    def rows(self) -> list[Row]:
-        """What has ended, in the order of the plan."""
-        return [self._rows[item.path] for item in self.items if item.path in self._rows]
 
     def finish(self) -> None:
         """Write the summary of what has ended, and remove what was not finished; no worker may work any more."""
         _sweep(self.items)
+        ended = self._kept | self.manifest.added()
+        self.rows = [ended[item.path] for item in self.items if item.path in ended]
         write_summary(self.folder, self.rows)
 
     def _done(self, item: Item) -> Row | None:

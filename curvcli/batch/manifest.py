@@ -17,7 +17,7 @@ NAME = "manifest.jsonl"
 
 
 class Manifest:
-    """The manifest of a folder, open for one batch: `rows` of earlier runs by path, and `append`.
+    """The manifest of a folder, open for one batch: `rows` of earlier runs by path, `append`, and what was `added`.
 
     resume: keep what is there and take up a line that was torn off by the end of an earlier run. Without it and without
     `force` the folder must be empty or not there yet.
@@ -26,7 +26,6 @@ class Manifest:
 
     def __init__(self, folder: str, *, resume: bool = False, force: bool = False):
         self.path = os.path.join(folder, NAME)
-        self.rows: dict[str, Row] = {}
         with _explained(folder):
             os.makedirs(folder, exist_ok=True)
             _check(folder, resume, force)
@@ -34,11 +33,11 @@ class Manifest:
             self._stream = os.fdopen(descriptor, "r+b", buffering=0)
             try:
                 self._lock()
-                if resume:
-                    self._stream.truncate(self._read())
-                else:
-                    self._stream.truncate(0)
-                self._stream.seek(0, os.SEEK_END)
+                whole, self.rows = self._read(0) if resume else (0, {})
+                self._begin = whole
+                if whole < self._stream.seek(0, os.SEEK_END):
+                    self._stream.truncate(whole)
+                self._stream.seek(whole)
             except BaseException:
                 self._stream.close()
                 raise
@@ -51,28 +50,31 @@ class Manifest:
     ) -> None:
         self._stream.close()
 
-    def append(self, row: Row) -> Row:
-        """Write a row through to the disk; the row as a later run will read it."""
-        line = msgspec.json.encode(row)
+    def append(self, row: Row) -> None:
+        """Write a row through to the disk."""
+        # One write, so that a line is there or torn, never mixed; a full disk may take a part of it.
+        rest = memoryview(msgspec.json.encode(row) + b"\n")
         with _explained(self.path):
-            # One write, so that a line is there or torn, never mixed; a full disk may take a part of it.
-            rest = memoryview(line + b"\n")
             while rest:
                 rest = rest[self._stream.write(rest) :]
             os.fsync(self._stream.fileno())
-        self.rows[row.path] = msgspec.json.decode(line, type=Row)
-        return self.rows[row.path]
 
-    def _read(self) -> int:
-        """Read the rows, the last of each mesh stands; the length up to the end of the last whole line."""
+    def added(self) -> dict[str, Row]:
+        """The rows that this batch has written, as they stand on the disk: what an interruption cannot falsify."""
+        return self._read(self._begin)[1]
+
+    def _read(self, begin: int) -> tuple[int, dict[str, Row]]:
+        """The end of the last whole line, and the rows from here to there; the last of each mesh stands."""
+        self._stream.seek(begin)
         content = self._stream.read()
         end = content.rfind(b"\n") + 1
+        rows = {}
         for line in content[:end].splitlines():
             # A line that a failing disk damaged tells nothing of its mesh, which is then done again.
             with contextlib.suppress(msgspec.MsgspecError, UnicodeDecodeError):
                 row = msgspec.json.decode(line, type=Row)
-                self.rows[row.path] = row
-        return end
+                rows[row.path] = row
+        return begin + end, rows
 
     def _lock(self) -> None:
         with contextlib.suppress(ImportError):

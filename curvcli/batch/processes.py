@@ -38,19 +38,21 @@ class Worker:
         """The row of one mesh, whatever it does to the process."""
         process = self._ready()
         self._late = False
+        row: Row
+        spent: bool
         timer = threading.Timer(self._limits.seconds or 0, self._too_late)
         if self._limits.seconds is not None:
             timer.start()
         try:
-            row: Row = _ask(process, (item, settings))
+            row, spent = _ask(process, (item, settings))
         except _DIED:
             self.end()
-            row = lost(item.path, process.returncode, self._limits, late=self._late)
+            row, spent = lost(item.path, process.returncode, self._limits, late=self._late), True
         finally:
             timer.cancel()
             if timer.ident is not None:
                 timer.join()
-        if self._late:
+        if spent or self._late:
             self.end()
         return row
 

@@ -42,9 +42,9 @@ def main() -> None:
     _answer(answers, __version__)
     while True:
         row, failure = run(*todo.get(), limits)
-        _answer(answers, row)
-        if failure is not None and ran_out(failure):
-            return  # memory in pieces serves nobody; the next mesh gets a fresh process
+        # Memory in pieces serves nobody: the next mesh gets a fresh process.
+        spent = failure is not None and ran_out(failure)
+        _answer(answers, (row, spent))
 
 
 def _listen(tasks: BinaryIO, todo: SimpleQueue[tuple[Item, Settings]]) -> None:
