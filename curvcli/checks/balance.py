@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import dot
+from ..blocks import Vector, cross, dot
 from ..curvatures.mean import conormals
 from ..declare import Column, VectorColumn
 from ..groups import Groups, Segments
@@ -13,8 +13,8 @@ from ..topology import Index
 from .base import Floats, Outcome, check, exclude_null, rounding
 
 
-def vector_sum(segments: Segments, vectors: VectorColumn) -> Floats:
-    """(G, 3) sums of a (3, n) array over each group."""
+def vector_sum(segments: Segments, vectors: Vector) -> Floats:
+    """(G, 3) sums over each group of vectors given by their components."""
     return np.stack([segments.sum(component) for component in vectors], axis=1)
 
 
@@ -71,8 +71,8 @@ def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_l
     """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
     arm = offsets(surface)
-    value = vector_sum(groups.vertices, np.cross(arm, H_vec, axis=0))
-    expected = vector_sum(segments, np.cross(midpoint, conormal, axis=0))
+    value = vector_sum(groups.vertices, cross(arm, H_vec))
+    expected = vector_sum(segments, cross(midpoint, conormal))
     tolerance = rounding(surface, _perimeters(surface, groups, edge_length, _arms(surface)))
     # Taken about the base, where rounding is least, then moved to the origin.
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p × H_p against Σ m × η|e|")
@@ -112,7 +112,7 @@ def vector_area(surface: Surface, groups: Groups, A_vec: VectorColumn, face_area
     a, b = (surface.xyz[:, end[left]] - base for end in (surface.edges.a, surface.edges.b))
     label = None if groups.edges.label is None else groups.edges.label[left]
     segments = Segments(label, groups.count, len(left))
-    swept = 0.5 * np.cross(a, b, axis=0) * times
+    swept = [0.5 * part * times for part in cross(a, b)]
     expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)
     span = 0.5 * np.sqrt(dot(a, a)) * np.sqrt(dot(b, b)) * np.abs(times)
     outcome = Outcome(
