@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 import uuid
 from collections.abc import Iterator, Sequence
@@ -44,6 +45,8 @@ def connect(scheduler: str, limits: Limits) -> Iterator[Engine]:
 
     from distributed import Future, as_completed
 
+    for name in ("distributed.client", "distributed.scheduler", "distributed.nanny", "distributed.core"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # a worker that dies is told in a row, or costs a retry
     with ExitStack() as stack:
         client = _client(stack, scheduler)
 
@@ -53,7 +56,7 @@ def connect(scheduler: str, limits: Limits) -> Iterator[Engine]:
                 client.submit(in_worker, item, settings, limits, key=f"curvcli-{run}-{index}", pure=False): item
                 for index, item in enumerate(items)
             }
-            for future in as_completed(list(futures)):
+            for future in as_completed(list(futures), loop=client.loop):
                 yield _row(future, futures.pop(future), limits, scheduler)
                 future.release()
 

@@ -16,6 +16,7 @@ from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
 from ..loading.content import open_regular, read_limited, shown
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
+_NOT_FOUND = 404
 _MAGIC = re.compile(r"[*?[]")
 
 
@@ -41,7 +42,8 @@ def parts_of(place: str) -> tuple[str, ...]:
     """The parts of an absolute path or URL, each fit to name a folder."""
     if is_url(place):
         url = urlsplit(place)
-        return (url.scheme, url.netloc, *(part for part in unquote(url.path).split("/") if part not in ("", ".", "..")))
+        parts = (url.scheme, url.netloc, *unquote(url.path).split("/"))
+        return tuple(part for part in parts if part not in ("", ".", ".."))
     drive, rest = os.path.splitdrive(os.path.abspath(place))
     return (drive.strip(":\\/").replace("\\", "_"), *(part for part in rest.split(os.sep) if part))
 
@@ -95,9 +97,10 @@ def read_url(place: str, max_bytes: int | None) -> bytes:
     except Exception as error:
         # fsspec says that there is no such file when a server does not answer, too; the cause tells them apart.
         if isinstance(error, FileNotFoundError):
-            if error.__cause__ is None or isinstance(error.__cause__, FileNotFoundError):
+            cause = error.__cause__
+            if cause is None or isinstance(cause, FileNotFoundError) or getattr(cause, "status", None) == _NOT_FOUND:
                 raise InputError("no such file") from None
-            raise InputError(f"the file cannot be read ({_told(error.__cause__)})") from None
+            raise InputError(f"the file cannot be read ({_told(cause)})") from None
         raise InputError(f"the file cannot be read ({_told(error)})") from None
 
 

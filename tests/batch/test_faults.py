@@ -86,7 +86,7 @@ def run(environment: dict[str, str], folder: Path, out: str, *more: str) -> subp
 def told(environment: dict[str, str], folder: Path, process: subprocess.Popen[bytes]) -> list[int]:
     """What the hanging mesh tells: the numbers of its worker's parent and of the worker."""
     with open(os.open(environment["TRAP_TOLD"], os.O_RDONLY | os.O_NONBLOCK), "rb") as pipe:
-        assert select.select([pipe], [], [], 100)[0], "the trap was not reached"
+        assert select.select([pipe], [], [], 60)[0], "the trap was not reached"
         assert process.poll() is None
         os.set_blocking(pipe.fileno(), True)
         return [int(number) for number in pipe.readline().split()]
