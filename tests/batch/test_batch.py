@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -23,6 +24,7 @@ from curvcli.batch.plan import plan
 from curvcli.commands import main as codes
 from curvcli.errors import InputError, OutputError
 from tests.batch.conftest import ALL, BAD, GOOD, Run
+from tests.shared import SHARED, needs_shared
 
 SAVE = ("--save", "csv,json,ply,edges.csv")
 
@@ -226,3 +228,25 @@ def test_bars_stay_off_pipes_and_quiet_is_quiet(scans: Path, run: Run) -> None:
     with Manifest("out", resume=True):
         locked = run("batch", "scans/a.*", "-o", "out", "--resume")
     assert (locked.code, locked.out) == (4, "")
+
+
+@needs_shared
+def test_the_collection_ends_as_its_index_says(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Real files, whole and broken: every one has its row and its code, and the table that a single run writes."""
+    assert SHARED is not None
+    monkeypatch.chdir(tmp_path)
+    with (SHARED / "meshes" / "index.csv").open(newline="") as stream:
+        promised = {row["file"]: row["exit"] for row in csv.DictReader(stream)}
+    ended = run("batch", str(SHARED / "meshes" / "*"), "-o", "out", "--save", "csv", "-q")
+    rows = {Path(path).name: row for path, row in manifest("out").items()}
+    assert set(rows) == set(os.listdir(SHARED / "meshes")) >= set(promised)
+    for name, code in promised.items():
+        assert str(rows[name]["exit_code"]) == code or not code, rows[name]["error"]
+    assert ended.code == max(row["exit_code"] for row in rows.values())
+    for name in sorted(promised)[::7]:
+        if rows[name]["exit_code"] == 0:
+            curvcli.analyze(SHARED / "meshes" / name).write("alone.csv", force=True)
+            assert Path("alone.csv").read_bytes() == Path("out", f"{name}.csv").read_bytes()
+        else:
+            with pytest.raises(InputError):
+                curvcli.load(SHARED / "meshes" / name)
