@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import unicodedata
+from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from ..errors import NoMatchError, UsageError
@@ -40,14 +41,16 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
     if not named:
         raise NoMatchError(f"{shown(files_from or 'no pattern')}: names no file")
     base = _shared(roots)
-    items, seen, taken = [], set[str](), set[str]()
+    items, seen, taken, names = [], set[str](), set[str](), Counter[str]()
     for name, place in named:
         if place in seen:
             continue
         seen.add(place)
         stem = _free(os.path.join(os.path.abspath(folder), *parts_of(place)[base:]), save, taken)
         content = read_url(place, None) if place.startswith(_OF_ONE_PROCESS) else None
-        items.append(Item(shown(name), place, outputs(stem, save), content))
+        names[shown(name)] += 1
+        again = f"~{names[shown(name)]}" if names[shown(name)] > 1 else ""  # two names that read alike once escaped
+        items.append(Item(shown(name) + again, place, outputs(stem, save), content))
     return items
 
 

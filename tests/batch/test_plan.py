@@ -73,6 +73,16 @@ def test_a_name_with_wildcards_in_it_is_a_name_first(tmp_path: Path, monkeypatch
     assert paths("a[1]*") == ["a1.ply"]
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="names that are not UTF-8 are Linux's")
+def test_names_that_are_no_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in (b"\xff.ply", b"\\udcff.ply", b"a\nb.ply"):
+        Path(os.fsdecode(name)).touch()
+    items = plan(["*.ply"], None, "out", ["csv"])
+    assert all(item.path.isprintable() for item in items)
+    assert len({item.path for item in items}) == len({item.outputs for item in items}) == 3
+
+
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\0"])
 def test_lists(scans: Path, monkeypatch: pytest.MonkeyPatch, end: str) -> None:
     names = ["scans/z.ply", "scans/a.ply", "scans/missing.ply", "scans/z.ply"]
