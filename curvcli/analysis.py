@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
@@ -105,6 +106,7 @@ class Analysis:
             *(need for rule in self._rules for need in rule.needs),
         }
         self.columns = evaluate(surface, wanted, area=conventions.area)
+        self._later: dict[str, Array] = {}
         self.cut: Analysis | None = None
         if regions is not None:
             cut, self.cut_groups = cut_apart(surface, regions)
@@ -135,13 +137,19 @@ class Analysis:
     def column(self, name: str) -> Array:
         """One column as a user sees it: (n,), (n, 3), or strings for labels."""
         quantity = passes.quantity(name)
-        if name not in self.columns:
-            self.columns = evaluate(self.surface, [name], area=self.conventions.area, known=self.columns)
+        values = self._column(name)
         if quantity.labels:
-            words = np.array(quantity.labels)[self.columns[name]]
+            words = np.array(quantity.labels)[values]
             words.setflags(write=False)
             return words
-        return presented(quantity, self.columns[name], self.surface, self.conventions.mean)
+        return presented(quantity, values, self.surface, self.conventions.mean)
+
+    def _column(self, name: str) -> Array:
+        """A column as computed; those of a table asked for later are kept apart, so that no report depends on it."""
+        if name not in self.columns and name not in self._later:
+            known = {**self.columns, **self._later}
+            self._later = evaluate(self.surface, [name], area=self.conventions.area, known=known)
+        return self.columns[name] if name in self.columns else self._later[name]
 
     @cached_property
     def vertices(self) -> Columns:
@@ -206,16 +214,15 @@ class Analysis:
         return found
 
     @property
-    def _lost(self) -> dict[str, int]:
+    def _lost(self) -> Counter[str]:
         """How many values of each chosen column and total no double holds in the file's unit."""
-        if not self.surface.unit_exponent:
-            return {}
-        quantities = [passes.quantity(name) for name in self.chosen]
-        found = {
-            q.stem: lost(self.surface, self.columns[q.name], q.length_exponent) for q in quantities if not q.labels
-        }
-        for key in lost_totals(self.surface, self.columns):
-            found[key] = found.get(key, 0) + 1
+        found: Counter[str] = Counter()
+        if self.surface.unit_exponent:
+            for quantity in map(passes.quantity, self.chosen):
+                if not quantity.labels:
+                    values = self.columns[quantity.name]
+                    found[quantity.stem] += lost(self.surface, values, quantity.length_exponent)
+            found.update(lost_totals(self.surface, self.columns))
         return found
 
     # ------------------------------------------------------------------ outputs
