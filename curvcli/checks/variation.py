@@ -32,7 +32,8 @@ def area_gradient(
     shown = [surface.in_file_unit(side, 1) for side in (drift, drift_tolerance)]
 
     def detail(g: int) -> str:
-        return f"Σ p·∇_p area against 2 area; |Σ ∇_p area| = {shown[0][g]:.3g} (allowed {shown[1][g]:.3g})"
+        drift, allowed = (f"{side[g]:.3g}" if np.isfinite(side[g]) else "undefined" for side in shown)
+        return f"Σ p·∇_p area against 2 area; |Σ ∇_p area| = {drift} (allowed {allowed})"
 
     # Both must hold: a drift beyond its bound is carried into the residual, in units of its own bound.
     residual = np.abs(value - expected)

@@ -34,6 +34,6 @@ def _distrust(failed: list[CheckRow]) -> str:
     where = f" on {scopes[0]}" if len(scopes) == 1 else f" on {len(scopes):,} pieces" if scopes else ""
     verb = "does" if len(names) == 1 else "do"
     return (
-        f"{', '.join(names)} {verb} not hold{where}, by more than rounding explains: do not trust the columns they sum. "
+        f"{', '.join(names)} {verb} not hold{where}, more than rounding explains: do not trust the columns they sum. "
         "No flaw of a mesh does that, only numbers at the limits of doubles or a defect of curvcli: please report it."
     )
