@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
+import traceback
 from collections.abc import Iterator
 
 # Address space that polars' threads and its allocator reserve before they hold a byte of data: at first, and later.
@@ -43,16 +44,22 @@ _used = False
 def ran_out(error: BaseException) -> bool:
     """Whether an exception, or one that led to it, means that there was no memory left.
 
-    Under a limit a thread cannot start, a library cannot be mapped, an import fails, each in its own words; and
-    extensions that do not look at what they were given leave Python with a SystemError.
+    Under a limit a thread cannot start, a library cannot be mapped, an import fails, each in its own words; extensions
+    that do not look at what they were given leave Python with a SystemError, and its import system stumbles.
     """
     return any(
         isinstance(one, MemoryError)
         or (isinstance(one, OSError) and one.errno == errno.ENOMEM)
-        or (isinstance(one, SystemError) and limited())
+        or ((isinstance(one, SystemError) or _within_an_import(one)) and limited())
         or any(words in str(one).lower() for words in _WORDS)
         for one in _causes(error)
     )
+
+
+def _within_an_import(error: BaseException) -> bool:
+    """Whether it was raised by Python's own import system."""
+    frames = list(traceback.walk_tb(error.__traceback__))
+    return bool(frames) and frames[-1][0].f_code.co_filename.startswith("<frozen importlib")
 
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
