@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import io
 import os
 import sys
 
@@ -13,7 +14,8 @@ _REFUSALS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF}
 def complete() -> None:
     """Open what the parent closed, so that no other file becomes stdout by taking its number.
 
-    stdin is empty then, stderr forgets; stdout refuses, so that nobody believes to have written what is lost.
+    stdin is empty then, stderr forgets; stdout refuses, so that nobody believes to have written what is lost. Letters
+    that a stream's encoding lacks are escaped: a terminal of ASCII gets its summary too.
     """
     for number, name, flags in ((0, "stdin", os.O_RDONLY), (1, "stdout", os.O_RDONLY), (2, "stderr", os.O_WRONLY)):
         if getattr(sys, name) is None:
@@ -22,6 +24,9 @@ def complete() -> None:
                 os.dup2(found, number)
                 os.close(found)
             setattr(sys, name, open(number, "w" if number else "r", closefd=False))  # noqa: SIM115
+        stream = getattr(sys, name)
+        if number and isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def refused(error: BaseException) -> bool:

@@ -7,6 +7,7 @@ import gzip
 import io
 import os
 import stat
+import sys
 import zlib
 from typing import Any, BinaryIO
 
@@ -43,22 +44,40 @@ def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) ->
 def read_limited(file: BinaryIO, max_bytes: int | None) -> bytes:
     """All bytes of a file or stream.
 
-    Errors: InputError if it cannot be read, is empty, or holds more than max_bytes.
+    Errors: InputError if it cannot be read, is empty, holds more than max_bytes, or is a file that changes its size
+    meanwhile: a part of a mesh is often a mesh.
     """
     try:
-        data = file.read() if max_bytes is None else _read_up_to(file, max_bytes + 1)
+        begin = file.tell() if file.seekable() else 0
+        before = _size(file, begin)
+        whole = max_bytes is None and before is not None
+        data = file.read() if whole else _read_up_to(file, sys.maxsize if max_bytes is None else max_bytes + 1)
+        after = _size(file, begin)
     except OSError as error:
         raise InputError(_reason(error)) from None
     if max_bytes is not None and len(data) > max_bytes:
         raise _too_large(f"more than {max_bytes} bytes", max_bytes)
     if not data:
         raise InputError("no data found, a mesh expected")
+    if before is not None and not before == after == len(data):
+        raise InputError(f"{before} bytes expected, {len(data)} read: the file changed while it was read")
     return data
 
 
+def _size(file: BinaryIO, begin: int = 0) -> int | None:
+    """How much of a regular file there is from a place on; None for other streams."""
+    try:
+        status = os.fstat(file.fileno())
+    except OSError:
+        return None
+    return status.st_size - begin if stat.S_ISREG(status.st_mode) else None
+
+
 def _read_up_to(file: BinaryIO, limit: int) -> bytes:
+    # Piece by piece as they come: only between them does Python hear of a signal before it waits again.
+    read = getattr(file, "read1", file.read)
     parts = []
-    while limit and (part := file.read(min(_CHUNK, limit))):
+    while limit and (part := read(min(_CHUNK, limit))):
         parts.append(part)
         limit -= len(part)
     return b"".join(parts)

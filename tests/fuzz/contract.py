@@ -8,6 +8,7 @@ import io
 import json
 import math
 import shutil
+import signal
 import sys
 from dataclasses import dataclass
 from functools import cache
@@ -35,11 +36,15 @@ def in_process(words: list[str]) -> Ran:
     """Run curvcli here, from its entry point on."""
     out, err = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True) for _ in range(2))
     argv = mock.patch.object(sys, "argv", ["curvcli", *words])
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     with argv, contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         try:
             main()
         except SystemExit as end:
             code = end.code if isinstance(end.code, int) else -1
+        finally:
+            for number, handler in handlers.items():
+                signal.signal(number, handler)
     return Ran(code, out.buffer.getvalue(), err.buffer.getvalue().decode())
 
 

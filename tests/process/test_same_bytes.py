@@ -19,7 +19,7 @@ TABLES = ("edges", "faces", "components")
 def outputs(mesh: Path, names: tuple[str, ...], folder: Path, threads: int, passes: str) -> dict[str, bytes]:
     folder.mkdir()
     arguments = [word for name in names for word in ("-o", str(folder / name))]
-    if names == NAMES:
+    if passes == "all":
         arguments += [word for kind in TABLES for word in ("--table", f"{kind}={folder / kind}.csv")]
     counts = dict.fromkeys(("POLARS_MAX_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), str(threads))
     line = command("analyze", mesh, "-q", "-p", passes, *arguments)
