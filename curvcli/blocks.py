@@ -35,8 +35,6 @@ _THIN = 1 / 16
 _SMALL_SQUARE = 2.0**-960
 # Areas below this count as none: their inverse would leave the range of doubles.
 NO_AREA = 2.0**-1000
-# A face whose longest edge has a square below this is a point: products of its edges would be lost to underflow.
-_NO_LENGTH = 2.0**-480
 
 
 def cross(a: Vector, b: Vector) -> list[Floats]:
@@ -67,10 +65,9 @@ class Triangles:
     cosines: tuple[Floats, Floats, Floats]
     degenerate: Mask | None
 
-    @property
-    def is_point(self) -> Mask:
-        """Faces so small that not even their angles are known."""
-        return np.asarray(self.cosines[0] + self.cosines[1] + self.cosines[2] < _NO_LENGTH)
+    def no_angle(self, corner: int) -> Mask:
+        """Faces that have no angle at a corner: it lies on another one, or the product of its edges is lost."""
+        return np.maximum(np.abs(self.cosines[corner]), self.twice_area) < _SMALL_SQUARE
 
     def opposite(self, corner: int) -> Vector:
         """The edge opposite a corner, counterclockwise."""
@@ -102,7 +99,7 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
         twice_area[thin] = np.where(area < NO_AREA, 0.0, area)
         lengths = [dot(edge, edge) for edge in ([x[thin] for x in side] for side in (u, v, w))]
         longest = np.maximum(np.maximum(lengths[0], lengths[1]), lengths[2])
-        small = (area <= np.maximum(4 * EPSILON * longest, NO_AREA)) | (longest < _NO_LENGTH)
+        small = (area <= np.maximum(4 * EPSILON * longest, NO_AREA)) | (longest < _SMALL_SQUARE)
         if small.any():
             degenerate = np.zeros(len(faces), bool)
             degenerate[thin[small]] = True
@@ -217,7 +214,5 @@ def _resum_large_stars(surface: Surface, angle: Floats) -> None:
 
 def _mark_coincident(coincident: Mask, face: NDArray[np.intp], t: Triangles) -> None:
     """Mark corners that lie on another corner of their face: their angle there has no meaning."""
-    for edge, (a, b) in ((t.u, (0, 1)), (t.v, (1, 2)), (t.w, (0, 2))):
-        zero = (edge[0] == 0) & (edge[1] == 0) & (edge[2] == 0) | t.is_point
-        coincident[face[a][zero]] = True
-        coincident[face[b][zero]] = True
+    for k, corner in enumerate(face):
+        coincident[corner[t.no_angle(k)]] = True

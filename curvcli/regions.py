@@ -42,6 +42,15 @@ class Regions:
 
 
 def find_regions(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
+    """The regions that `--regions` names; an error names the mesh. See `_find`."""
+    try:
+        return _find(surface, chosen)
+    except InputError as error:
+        error.path = error.path or (surface.file.path if surface.file is not None else None)
+        raise
+
+
+def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
     """The regions that `--regions` names: records of an OBJ file, a face property of a PLY file, a file, or an array.
 
     Labels are given per polygon of the file, or per triangle where there are as many; a polygon's label passes to its
@@ -55,7 +64,10 @@ def find_regions(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Re
         records = file.polygon_labels.get(chosen) if file is not None else None
         if records is None:
             raise UsageError(f"--regions {chosen}: the mesh has no {chosen}; {_offered(surface)}")
-        return _numbered(_per_face(surface, records.codes, chosen), records.names)
+        codes = _per_face(surface, records.codes, chosen)
+        if codes.max() < 0:
+            raise InputError(f"{chosen}: no face comes after such a record, expected at least one")
+        return _numbered(codes, records.names)
     if file is not None and chosen in file.polygon_properties:
         return _from_labels(surface, file.polygon_properties[chosen], f"face property {chosen}")
     if os.path.splitext(chosen)[1].lower() in FILES:

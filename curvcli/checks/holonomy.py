@@ -81,4 +81,5 @@ def _direction(surface: Surface, half_edges: NDArray[np.integer[Any]]) -> Vector
     face, corner = half_edges // 3, half_edges % 3
     a, b = surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]
     span = surface.xyz[:, b] - surface.xyz[:, a]
-    return span / np.sqrt(dot(span, span))
+    square = dot(span, span)
+    return span / np.sqrt(np.where(square > np.finfo(np.float64).tiny, square, np.nan))

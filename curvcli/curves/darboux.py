@@ -102,8 +102,7 @@ class Darboux:
                 at = at[here]
                 theta = np.arctan2(t.twice_area, t.cosines[k])
                 # A corner on top of another one of its face has no angle.
-                arms = ((t.u, t.w), (t.u, t.v), (t.v, t.w))[k]
-                theta[(dot(arms[0], arms[0]) == 0) | (dot(arms[1], arms[1]) == 0) | t.is_point] = np.nan
+                theta[t.no_angle(k)] = np.nan
                 np.add.at(angle, at, theta[here])
                 np.add.at(area, at, t.twice_area[here])
                 sign = 1.0 if surface.corner_sign is None else surface.corner_sign[face[here], k]

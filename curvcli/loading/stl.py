@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..errors import InputError, Notice
 from .limits import check_faces
 from .model import MeshFile
-from .text import NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy
+from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy
 from .weld import weld_exact
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -102,6 +102,8 @@ def _read_lines(
     check_faces(len(facets), max_faces)
     if not len(facets):
         return np.empty((3, 0)), ()
+    _check_keywords(data, starts, facets, b"facet", unit)
+    _check_keywords(data, starts, vertices, b"vertex", unit)
     _check_facets(facets, vertices, unit)
     statements = first[(first != NEWLINE | 32) & (first != ord("s"))]
     if statements[-1] != ord("e"):
@@ -127,6 +129,19 @@ def _read_lines(
     if unknown:
         notices.append(Notice("unknown_statements", unknown, "unknown statements are ignored"))
     return np.ascontiguousarray(records.flat().reshape(-1, 3).T), tuple(notices)
+
+
+def _check_keywords(data: bytes, starts: NDArray[np.int64], lines: NDArray[np.intp], word: bytes, unit: str) -> None:
+    """Refuses lines that begin as a keyword does but go on otherwise."""
+    letters = np.frombuffer(data, np.uint8)
+    wrong = np.zeros(len(lines), np.bool_)
+    for k, letter in enumerate(word + b" "):
+        at = letters.take(starts[lines] + k, mode="clip")
+        wrong |= (at | 32) != letter if letter != BLANK else (at != BLANK) & (at != NEWLINE)
+    if wrong.any():
+        line = int(lines[np.flatnonzero(wrong)[0]])
+        token = data[starts[line] : starts[line + 1]].split()[0][:40].decode("utf-8", "backslashreplace")
+        raise InputError(f"`{token}` found, `{word.decode()}` expected", place=f"{unit} {line + 1}")
 
 
 def _check_facets(facets: NDArray[np.intp], vertices: NDArray[np.intp], unit: str) -> None:

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import Notice
+from ..errors import InputError, Notice
 from .model import MeshFile
 
+_CROWD = 200
+"""Positions near a vertex, on average, of which a tolerance is too large for the mesh."""
 _MIX = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0xD6E8FEB86659FD93)
 
 
@@ -105,6 +107,7 @@ def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]
     diagonal of the bounding box.
 
     xyz: (3, n). Positions that are not finite stay alone.
+    Errors: InputError where so many positions are that near to one another that their pairs would not fit in memory.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -115,8 +118,10 @@ def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]
     finite = np.flatnonzero(np.isfinite(xyz).all(0))
     if not len(finite):
         return lowest
-    points = xyz[:, finite]
-    extent = points.max(1) - points.min(1)
+    first, number = weld_exact(xyz[:, finite])
+    points = xyz[:, finite[first]]
+    with np.errstate(over="ignore"):
+        extent = points.max(1) - points.min(1)
     scale = extent.max()
     if not np.isfinite(scale) or scale == 0:
         points, scale = points * 0.5**10, scale * 0.5**10
@@ -124,10 +129,17 @@ def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]
         scale = extent.max() or 1.0
     points = (points - points.min(1)[:, None]) / scale
     reach = tolerance * float(np.linalg.norm(extent / scale))
-    pairs = cKDTree(points.T).query_pairs(reach, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(len(finite), len(finite)))
+    tree, count = cKDTree(points.T), len(first)
+    near = int(tree.count_neighbors(tree, reach)) // count
+    if near > _CROWD:
+        raise InputError(
+            f"{near} positions lie within the tolerance of a vertex on average, a few expected",
+            hint="a smaller --weld TOL, or `--weld exact`",
+        )
+    pairs = tree.query_pairs(reach, output_type="ndarray")
+    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
     _, label = connected_components(graph, directed=False)
-    first = np.full(label.max() + 1, n, np.int64)
-    np.minimum.at(first, label, finite)
-    lowest[finite] = first[label]
+    lead = np.full(label.max() + 1, n, np.int64)
+    np.minimum.at(lead, label, finite[first])
+    lowest[finite] = lead[label[number]]
     return lowest

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -152,3 +154,11 @@ class TestRefused:
         for data in (binary_stl(TETRAHEDRON), ascii_stl(TETRAHEDRON)):
             with pytest.raises(InputError, match="4 faces found, at most 3 allowed"):
                 parse_stl(data, max_faces=3)
+
+
+@pytest.mark.parametrize(("wrong", "place"), [("vertdx", "line 4"), ("vertexes", "line 4"), ("facets", "line 2")])
+def test_misspelt_keywords(wrong: str, place: str) -> None:
+    data = ascii_stl(TETRAHEDRON).decode()
+    with pytest.raises(InputError, match=f"`{wrong}` found, `{wrong[:3]}") as error:
+        parse_stl(re.sub(wrong[:3] + r"\w+", wrong, data, count=1).encode())
+    assert error.value.place == place

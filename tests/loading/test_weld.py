@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from curvcli.errors import InputError
 from curvcli.loading import weld
 from curvcli.loading.obj import parse_obj
 from curvcli.loading.weld import weld_exact, weld_within, welded
@@ -88,3 +89,12 @@ def test_rows_stay_and_corners_move() -> None:
     assert near.corners.tolist() == [0, 1, 2, 2, 1, 5, 0, 1, 5]
     assert welded(mesh, "auto") is mesh
     np.testing.assert_array_equal(near.xyz, mesh.xyz)
+
+
+def test_a_crowd_is_refused_and_equal_positions_are_none() -> None:
+    rng = np.random.default_rng(0)
+    crowd = np.concatenate([rng.random((3, 3000)) * 1e-6, np.ones((3, 1))], axis=1)
+    with pytest.raises(InputError, match="2999 positions lie within the tolerance"):
+        weld_within(crowd, 1e-3)
+    equal = np.concatenate([np.zeros((3, 100_000)), np.full((3, 100_000), 1e-9), np.ones((3, 1))], axis=1)
+    assert np.unique(weld_within(equal, 1e-3)).tolist() == [0, 200_000]
