@@ -17,12 +17,25 @@ settings.register_profile(
 settings.load_profile("curvcli")
 
 
-def pytest_configure(config: pytest.Config) -> None:
-    """A shell in the background passes on that Ctrl-C is to be ignored; programs under test listen to it."""
-    for number, handler in (
-        (signal.SIGINT, signal.default_int_handler),
-        (signal.SIGTERM, signal.SIG_DFL),
-        (signal.SIGHUP, signal.SIG_DFL),
-    ):
+# Ctrl-C, kill and a lost terminal, as a program finds them that was started in the foreground.
+HANDLERS = {
+    signal.SIGINT: signal.default_int_handler,
+    signal.SIGTERM: signal.SIG_DFL,
+    signal.SIGHUP: signal.SIG_DFL,
+}
+
+
+def _listen() -> None:
+    for number, handler in HANDLERS.items():
         if signal.getsignal(number) is signal.SIG_IGN:
             signal.signal(number, handler)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """A shell in the background passes on that Ctrl-C is to be ignored; programs under test listen to it."""
+    _listen()
+
+
+def pytest_runtest_teardown(item: pytest.Item) -> None:
+    """The program, called within a test, ends by ignoring signals; what later tests start would inherit that."""
+    _listen()
