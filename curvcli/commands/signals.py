@@ -13,6 +13,9 @@ _NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
 # The same wish is often told twice at once: by a terminal to the whole group and by a parent to its child.
 _ONE_WISH = 1.0
 
+# Imports are waited for, looked at so often, and not longer than this; all in seconds.
+_SOON, _PATIENCE = 0.01, 5.0
+
 
 class Ending:
     """The wish to end: raised as KeyboardInterrupt wherever the program is, and remembered here.
@@ -22,7 +25,7 @@ class Ending:
 
     def __init__(self) -> None:
         self.number: int | None = None
-        self._process, self._at = os.getpid(), 0.0
+        self._process, self._at, self._delayed = os.getpid(), 0.0, False
 
     @property
     def code(self) -> int:
@@ -33,24 +36,42 @@ class Ending:
         """Listen, except to signals that the parent chose to have ignored, as nohup does."""
         for number in _numbers():
             if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
-                signal.signal(number, self._unwind)
+                signal.signal(number, self._hear)
 
     def too_late(self) -> None:
         """The work is done: nothing can be interrupted any more, and Python may end in peace."""
         for number in _numbers():
             signal.signal(number, signal.SIG_IGN)
+        if self._delayed:
+            signal.setitimer(signal.ITIMER_REAL, 0)
 
-    def _unwind(self, number: int, frame: FrameType | None) -> None:
+    def _hear(self, number: int, frame: FrameType | None) -> None:
         if os.getpid() != self._process:  # a child that was forked and is not ours to unwind
             signal.signal(number, signal.SIG_DFL)
             os.kill(os.getpid(), number)
             return
         now = time.monotonic()
-        again = self.number is not None and now - self._at < _ONE_WISH
-        self.number = self.number or number
-        if not again:
-            self._at = now
-            raise KeyboardInterrupt
+        if self.number is None or now - self._at >= _ONE_WISH:
+            self.number, self._at = self.number or number, now
+            self._unwind(number, frame)
+
+    def _unwind(self, number: int, frame: FrameType | None) -> None:
+        # An exception amid an import can leave its lock held, and a thread that needs that module would wait for ever.
+        if _imports(frame) and hasattr(signal, "setitimer") and time.monotonic() - self._at < _PATIENCE:
+            self._delayed = True
+            signal.signal(signal.SIGALRM, self._unwind)
+            signal.setitimer(signal.ITIMER_REAL, _SOON)
+            return
+        raise KeyboardInterrupt
+
+
+def _imports(frame: FrameType | None) -> bool:
+    """Whether what runs there is part of an import."""
+    while frame is not None:
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _numbers() -> list[signal.Signals]:

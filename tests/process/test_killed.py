@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.cli.program import curvcli, start
+from tests.cli.program import curvcli, environment, start
 from tests.process.watch import feed, until
 
 OLD = b"what was there\n" * 1000
@@ -124,3 +125,37 @@ def test_signals_that_the_parent_ignores_stay_ignored(small: Path, tmp_path: Pat
     _, words = process.communicate(content[-1:], timeout=120)
     assert (process.returncode, words) == (0, b"")
     assert (tmp_path / "k.csv").stat().st_size > 0
+
+
+def test_an_import_is_not_torn_apart(tmp_path: Path) -> None:
+    """Its lock would stay held, and a thread that needs the module would wait for ever."""
+    (tmp_path / "torn.py").write_text(
+        "import os, signal\nos.kill(os.getpid(), signal.SIGTERM)\nfor _ in range(1000):\n    pass\nprint('whole')\n"
+    )
+    program = (
+        "import signal, sys\n"
+        "from curvcli.commands.signals import Ending\n"
+        "ending = Ending()\n"
+        "ending.expect()\n"
+        "try:\n"
+        "    import torn\n"
+        "    while True:\n"
+        "        signal.pause()\n"
+        "except KeyboardInterrupt:\n"
+        "    sys.exit(ending.code)\n"
+    )
+    line = [sys.executable, "-c", program]
+    done = subprocess.run(line, cwd=tmp_path, env=environment(), capture_output=True, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (143, b"whole\n", b"")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows the libraries that a process has mapped")
+@pytest.mark.parametrize("library", ["_multiarray_umath", "scipy", "polars"])
+def test_interrupted_while_libraries_are_loaded(library: str, small: Path, tmp_path: Path) -> None:
+    process = start("analyze", small, "-q", "-o", tmp_path / "k.csv", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    maps = Path(f"/proc/{process.pid}/maps")
+    until(lambda: library in maps.read_text(), process)
+    process.send_signal(signal.SIGINT)
+    out, words = process.communicate(timeout=60)
+    assert (process.returncode, out, words) == (130, b"", b"curvcli: interrupted\n")
+    assert list(tmp_path.iterdir()) == []
