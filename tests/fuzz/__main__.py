@@ -48,8 +48,8 @@ def way(error: BaseException) -> str:
 class Search:
     """Rounds of random cases; `ran` counts how they ended, `found` holds the smallest case of each way to fail."""
 
-    def __init__(self, folder: Path, minutes: float) -> None:
-        self.folder, self.end = folder, time.monotonic() + 60 * minutes
+    def __init__(self, folder: Path, corpus: Path, minutes: float) -> None:
+        self.folder, self.corpus, self.end = folder, corpus, time.monotonic() + 60 * minutes
         self.ran: Counter[str] = Counter()
         self.found: dict[str, Case] = {}
         self.shrinking = ""
@@ -87,6 +87,15 @@ class Search:
             seed(number)(search(given(cases)(self.one)))()
         except (Broken, HypothesisException) as error:
             print(f"found: {str(error)[:300]}", flush=True)
+            self.keep()
+
+    def keep(self) -> None:
+        """Store what was found, as small as it has become."""
+        self.corpus.mkdir(exist_ok=True)
+        for name, case in self.found.items():
+            slug = re.sub(r"\W+", "-", name).strip("-").lower()[-40:]
+            if len(case.data) <= LARGEST:
+                store(case, self.corpus / f"{slug}-{crc32(name.encode()):08x}.case")
 
 
 def main() -> int:
@@ -100,7 +109,7 @@ def main() -> int:
     kinds = {kind: mutated(kind) for kind in ("obj", "ply", "stl", "strips")} | {"sound": sound(), "noise": noise()}
     print(f"seed {chosen.seed}", flush=True)
     with tempfile.TemporaryDirectory() as folder:
-        search = Search(Path(folder), chosen.minutes)
+        search = Search(Path(folder), chosen.corpus, chosen.minutes)
         for number in count(chosen.seed):
             for cases in kinds.values():
                 if time.monotonic() > search.end:
@@ -110,11 +119,6 @@ def main() -> int:
                 print(f"{search.ran.total()} cases: {dict(search.ran)}", flush=True)
                 continue
             break
-    chosen.corpus.mkdir(exist_ok=True)
-    for name, case in search.found.items():
-        slug = re.sub(r"\W+", "-", name).strip("-").lower()[-40:]
-        if len(case.data) <= LARGEST:
-            store(case, chosen.corpus / f"{slug}-{crc32(name.encode()):08x}.case")
     print(f"{search.ran.total()} cases ran, {dict(search.ran)}; {len(search.found)} ways to break the contract")
     for name in search.found:
         print(f"  {name}")
