@@ -36,7 +36,8 @@ def test_the_summary() -> None:
     for word in (DISK, "gauss_bonnet", "force_balance", "pass", "area", "willmore", "kappa_g", "orient file"):
         assert word in ended.out
     assert "\x1b" not in ended.out
-    assert all(len(line) <= 100 for line in ended.out.splitlines() if DISK not in line)
+    # Tables are narrow; sentences are lines of their own, which nothing breaks.
+    assert all(len(line) <= 100 for line in ended.out.splitlines() if line.startswith(" "))
 
 
 def test_quiet_and_verbose() -> None:
