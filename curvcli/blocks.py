@@ -25,7 +25,7 @@ Vector = Sequence[Floats] | Floats
 FACES_PER_BLOCK = 16384
 EPSILON = float(np.finfo(np.float64).eps)
 
-# Stars of more faces have their angles added in pairs.
+# Stars of more faces are summed in pairs.
 LARGE_STAR = 32
 
 # Below this ratio of twice the area to the longest edge squared, the cross product is worth its compensated form.
@@ -178,9 +178,7 @@ def star_sums(surface: Surface) -> StarSums:
         if t.degenerate is not None:
             degenerate[block] = t.degenerate
             _mark_coincident(coincident, face, t)
-        half_over = np.divide(0.5, t.twice_area, where=t.twice_area > 0, out=np.zeros_like(t.twice_area))
-        half_normal = [component * half_over for component in t.normal]
-        at_0, at_2 = cross(half_normal, t.v), cross(half_normal, t.u)
+        at_0, at_2 = _gradient_terms(t)
         for k in range(3):
             third = t.normal[k] / 6
             for j, corner in enumerate(face):
@@ -188,28 +186,44 @@ def star_sums(surface: Surface) -> StarSums:
             np.add.at(gradient[k], face[0], at_0[k])
             np.add.at(gradient[k], face[1], -at_0[k] - at_2[k])
             np.add.at(gradient[k], face[2], at_2[k])
-    _resum_large_stars(surface, angle)
+    _resum_large_stars(surface, angle, area, *vector, *gradient)
     return StarSums(angle, area, vector, gradient, face_area, degenerate, coincident)
 
 
-def _resum_large_stars(surface: Surface, angle: Floats) -> None:
-    """Add the angles of large stars again in pairs: one after the other, thousands would cost K its last digits."""
+def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:
+    """Gradients of the areas with respect to corners 0 and 2; that of corner 1 is minus their sum."""
+    half_over = np.divide(0.5, t.twice_area, where=t.twice_area > 0, out=np.zeros_like(t.twice_area))
+    half_normal = [component * half_over for component in t.normal]
+    return cross(half_normal, t.v), cross(half_normal, t.u)
+
+
+def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
+    """Sum large stars again in pairs: one after the other, thousands of faces would cost the last digits.
+
+    sums: rows of angles, areas, vector areas and gradients.
+    """
     large = surface.corner_count > LARGE_STAR
     if not large.any():
         return
     chosen = np.flatnonzero(large[surface.faces].any(axis=1))
-    vertices, angles = [], []
+    vertices, terms = [], []
     for block in face_blocks(len(chosen)):
         face = surface.faces[chosen[block]]
+        sign = None if surface.corner_sign is None else surface.corner_sign[chosen[block]]
         t = triangles(surface.xyz, face)
-        for corner, cosine in zip(face.T, t.cosines, strict=True):
+        at_0, at_2 = _gradient_terms(t)
+        gradients = at_0, [-x - y for x, y in zip(at_0, at_2, strict=True)], at_2
+        for k, corner in enumerate(face.T):
             kept = large[corner]
+            thirds = [x / 6 if sign is None else x / 6 * sign[:, k] for x in t.normal]
+            rows = [np.arctan2(t.twice_area, t.cosines[k]), t.twice_area / 6, *thirds, *gradients[k]]
             vertices.append(corner[kept])
-            angles.append(np.arctan2(t.twice_area[kept], cosine[kept]))
-    vertex, each = np.concatenate(vertices), np.concatenate(angles)
+            terms.append(np.stack(rows)[:, kept])
+    vertex, each = np.concatenate(vertices), np.concatenate(terms, axis=1)
     order = np.argsort(vertex, kind="stable")
     start = np.flatnonzero(np.diff(vertex[order], prepend=-1))
-    angle[vertex[order[start]]] = np.add.reduceat(each[order], start)
+    for row, term in zip(sums, each, strict=True):
+        row[vertex[order[start]]] = np.add.reduceat(term[order], start)
 
 
 def _mark_coincident(coincident: Mask, face: NDArray[np.intp], t: Triangles) -> None:

@@ -24,6 +24,8 @@ Indices = NDArray[np.integer[Any]]
 _LIMIT = 1e-12
 # The rounding of a sum of cotangents in twice the digits, in units of the cotangents squared.
 _SLACK = 1e-28
+# Squares below this, in the unit of computation, have lost to underflow the digits that a flip would need.
+_LOST = 2.0**-900
 # Flips at once: their temporaries stay in the second-level cache.
 _FLIPS_PER_BLOCK = 4096
 # Meshes made by people need a few flips per edge; what needs more than these, some seconds' worth, is given up.
@@ -107,7 +109,7 @@ class IntrinsicTriangulation:
             with np.errstate(invalid="ignore"):
                 weight = self._cotangent[here] + np.where(free, self._cotangent[there], 0.0)
             self.weight[edge] = weight
-            self.failing[edge] = free & (here // 3 != there // 3) & (weight < -_LIMIT)
+            self.failing[edge] = free & (here // 3 != there // 3) & (weight < -_LIMIT) & ~self._lost(here)
             self._weigh_thin(edge[thin])
 
     def _weigh_thin(self, edges: Indices) -> None:
@@ -125,8 +127,16 @@ class IntrinsicTriangulation:
                 flat = (c_area.high == 0) | (d_area.high == 0)
                 weight = np.where(flat, one + other, weight)
                 limit = _LIMIT + _SLACK * np.maximum(abs(one), abs(other)) ** 2
-                self.failing[edge] = free & (f != g) & (weight < -np.minimum(limit, 1e300))
+                self.failing[edge] = free & (f != g) & ~self._lost(here) & (weight < -np.minimum(limit, 1e300))
             self.weight[edge] = np.where(free, weight, one)
+
+    def _lost(self, sides: Indices) -> Mask:
+        """Sides of lifted faces across which no flip can be computed."""
+        lost: Mask = self._lifted[sides // 3]
+        lifted = np.flatnonzero(lost)
+        known = sides[lifted]
+        lost[lifted] = self._products.high[known] + self._products.high[after(known)] < _LOST
+        return lost
 
     def _sides(self, edges: Indices) -> tuple[Indices, Indices, Mask]:
         """Both sides of the given edges, the one side twice where an edge is constrained, and where it is not."""

@@ -133,9 +133,8 @@ def _flat(piece: Any) -> dict[str, Any]:
 def _column(values: list[Any]) -> Any:
     known = [value for value in values if value is not None]
     if known and all(isinstance(value, str) for value in known):
-        names = tuple(dict.fromkeys(known))
-        codes = [names.index(value) if value is not None else -1 for value in values]
-        return Labels(np.array(codes, np.int32), names)
+        number = {name: code for code, name in enumerate(dict.fromkeys(known))}
+        return Labels(np.array([number.get(value, -1) for value in values], np.int32), tuple(number))
     if known and all(isinstance(value, bool) for value in known) and len(known) == len(values):
         return np.array(values, bool)
     if known and all(isinstance(value, int) for value in known):

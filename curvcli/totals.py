@@ -83,8 +83,8 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
     """
     H_vec, A_vec = (np.where(surface.interior, columns[name], np.nan) for name in ("H_vec", "A_vec"))
     vertices = groups.vertices
-    with np.errstate(invalid="ignore", divide="ignore"):
-        H = -vertices.sum(dot(H_vec, A_vec)) / vertices.sum(dot(A_vec, A_vec))
+    square = vertices.sum(dot(A_vec, A_vec))
+    H = -vertices.sum(dot(H_vec, A_vec)) / np.where(square > np.finfo(np.float64).tiny, square, np.nan)
     each = H[0] if vertices.label is None else np.append(H, np.nan)[vertices.label]
     residual = H_vec + each * A_vec
     orientable = census(surface, groups).orientable

@@ -73,20 +73,21 @@ class CheckRule:
     def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
         """The check on every group."""
         outcome = self.function(surface, groups, *(columns[name] for name in self.needs))
-        gap = outcome.value - outcome.expected
+        with np.errstate(invalid="ignore"):  # sides that no double holds
+            gap = outcome.value - outcome.expected
         residual = outcome.residual
         if residual is None:
             residual = np.abs(gap) if gap.ndim == 1 else np.sqrt((gap * gap).sum(axis=1))
         passed = residual <= outcome.tolerance  # NaN fails
         shown = [
-            surface.in_file_unit(side, outcome.length_exponent)
+            surface.in_file_unit(side, outcome.length_exponent).tolist()
             for side in (outcome.value, outcome.expected, residual, outcome.tolerance)
         ]
         return [
             self._one(groups, outcome, bool(passed[g]), [side[g] for side in shown], g) for g in range(groups.count)
         ]
 
-    def _one(self, groups: Groups, outcome: Outcome, passed: bool, shown: list[Floats], group: int) -> Check:
+    def _one(self, groups: Groups, outcome: Outcome, passed: bool, shown: list[Any], group: int) -> Check:
         scope = groups.scope(group)
         for mask, reason in outcome.excluded:
             if mask[group]:
@@ -129,6 +130,6 @@ def exclude_null(outcome: Outcome, groups: Groups, surface: Surface, null: Mask,
 
 def _plain(value: Any) -> Any:
     """A number or a list of numbers; null where no double holds it."""
-    if np.ndim(value):
+    if isinstance(value, list):
         return [_plain(x) for x in value]
-    return float(value) if np.isfinite(value) else None
+    return value if math.isfinite(value) else None

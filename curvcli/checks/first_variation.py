@@ -44,6 +44,10 @@ def first_variation(
     return outcome
 
 
+# Powers of lower heights, in the unit of computation, would be lost to underflow: no difference can be formed there.
+_LOWEST = 2.0**-240
+
+
 def _differences(
     surface: Surface, corner: NDArray[np.intp], member: NDArray[np.intp], count: int
 ) -> list[tuple[VectorColumn, Floats]]:
@@ -61,12 +65,14 @@ def _differences(
     opposite = r - q
     normal = np.array(cross(q, r))
     length, twice = np.sqrt(dot(opposite, opposite)), np.sqrt(dot(normal, normal))
-    height = twice / length
+    with np.errstate(divide="ignore", invalid="ignore"):
+        height = twice / length
+    height = np.where(height > _LOWEST, height, 0.0)
     reach = np.sqrt(np.maximum(dot(q, q), dot(r, r)))
     lowest = np.full(count, np.inf)
     np.minimum.at(lowest, member, height)
     # Truncation grows with the square of the step, rounding with its inverse: the cube root of ε balances them.
-    step = EPSILON ** (1 / 3) * lowest
+    step = EPSILON ** (1 / 3) * np.where(lowest > 0, lowest, np.nan)
     area, volume = np.zeros((3, count)), np.zeros((3, count))
     for axis in range(3):
         for way in (1.0, -1.0):
@@ -78,6 +84,7 @@ def _differences(
             # The volume over the face, about p: only the base of the tetrahedron that p's motion spans changes.
             volume[axis] += np.bincount(member, sign * dot(moved, swept) / 6, minlength=count) * change
     faces = np.bincount(member, minlength=count)
+    square = np.where(height > 0, height * height, np.nan)
     rounding = (16 + faces) * EPSILON * np.bincount(member, reach * reach + length * reach, minlength=count)
-    truncation = step * step * np.bincount(member, length / (height * height), minlength=count)
+    truncation = step * step * np.bincount(member, length / square, minlength=count)
     return [(area, rounding / step + truncation), (volume, rounding)]

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import resource
-import subprocess
 import sys
-import tempfile
-import threading
 import tracemalloc
 from collections import Counter
 from pathlib import Path
@@ -17,10 +12,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-import curvcli
 from tests.fuzz.cases import Case, mutated, noise, sound
 from tests.fuzz.contract import Ran, arguments, in_process, kept
 from tests.fuzz.corpus import FOLDER, load
+from tests.fuzz.process import real
 
 MEGABYTE = 1 << 20
 
@@ -62,29 +57,6 @@ def test_noise(tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", sorted(FOLDER.glob("*.case")), ids=lambda path: path.stem)
 def test_what_once_broke_the_contract(tmp_path: Path, path: Path) -> None:
     assert kept(load(path), tmp_path / "work") in ("read", "refused")
-
-
-def real(words: list[str]) -> Ran:
-    """Run curvcli as a process of its own, which has a minute, and 200 MB beside 20 times the file."""
-    environment = os.environ | {
-        "PYTHONPATH": str(Path(curvcli.__file__).parents[1]),
-        "PYTHONWARNINGS": "error::RuntimeWarning",
-    }
-    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
-        process = subprocess.Popen([sys.executable, "-m", "curvcli", *words], stdout=out, stderr=err, env=environment)
-        watch = threading.Timer(60, process.kill)
-        watch.start()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        watch.cancel()
-        out.seek(0)
-        err.seek(0)
-        ran = Ran(process.returncode, out.read(), err.read().decode())
-    # The system counts what the child held of us between fork and exec as its own.
-    ours = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-    allowed = 200 * 10**6 + 20 * Path(words[1]).stat().st_size + 2 * MEGABYTE
-    assert usage.ru_maxrss * 1024 < max(allowed, ours + 2 * MEGABYTE)
-    return ran
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory of a process is told differently elsewhere")
