@@ -140,7 +140,10 @@ class Surface:
     @cached_property
     def xyz(self) -> NDArray[np.float64]:
         """(3, V) coordinates in the unit of computation, one contiguous row per coordinate."""
-        return self.xyz_given if not self.unit_exponent else np.ldexp(self.xyz_given, -self.unit_exponent)
+        if not self.unit_exponent:
+            return self.xyz_given
+        with np.errstate(over="ignore"):  # only of vertices that no face uses
+            return np.ldexp(self.xyz_given, -self.unit_exponent)
 
     @cached_property
     def base(self) -> NDArray[np.float64]:
