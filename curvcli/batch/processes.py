@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import pickle
 import subprocess
 import sys
 import threading
@@ -11,9 +10,11 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager, suppress
 from queue import SimpleQueue
-from typing import Any
+
+import msgspec
 
 from .._version import __version__
+from .messages import NO_MESSAGE, Done, Message, Ready, Task, receive, send
 from .model import Engine, Item, Limits, Row, Settings
 from .outcome import lost
 
@@ -21,7 +22,6 @@ from .outcome import lost
 _POOLS = ("POLARS_MAX", "OMP_NUM", "OPENBLAS_NUM", "MKL_NUM", "NUMEXPR_NUM", "VECLIB_MAXIMUM", "RAYON_NUM")
 ONE_THREAD = {f"{pool}_THREADS": "1" for pool in _POOLS}
 _STARTS = 3
-_DIED = (EOFError, OSError, pickle.UnpicklingError)
 
 
 class Worker:
@@ -38,23 +38,21 @@ class Worker:
         """The row of one mesh, whatever it does to the process."""
         process = self._ready()
         self._late = False
-        row: Row
-        spent: bool
         timer = threading.Timer(self._limits.seconds or 0, self._too_late)
         if self._limits.seconds is not None:
             timer.start()
         try:
-            row, spent = _ask(process, (item, settings))
-        except _DIED:
+            done = _ask(process, Task(item, settings), Done)
+        except NO_MESSAGE:
             self.end()
-            row, spent = lost(item.path, process.returncode, self._limits, late=self._late), True
+            done = Done(lost(item.path, process.returncode, self._limits, late=self._late), True)
         finally:
             timer.cancel()
             if timer.ident is not None:
                 timer.join()
-        if spent or self._late:
+        if done.spent or self._late:
             self.end()
-        return row
+        return done.row
 
     def stop(self) -> None:
         """Kill the process for good; a thread that waits for its answer learns that it died."""
@@ -90,9 +88,9 @@ class Worker:
                     break
                 self._process = process = _start()
             try:
-                if _ask(process, self._limits) == __version__:
+                if _ask(process, self._limits, Ready).version == __version__:
                     return process
-            except _DIED:
+            except NO_MESSAGE:
                 ended = process.wait()
         raise RuntimeError(f"a worker cannot start: it ends with {ended}")
 
@@ -109,12 +107,11 @@ def _start() -> subprocess.Popen[bytes]:
     )
 
 
-def _ask(process: subprocess.Popen[bytes], question: object) -> Any:
+def _ask(process: subprocess.Popen[bytes], question: msgspec.Struct, answer: type[Message]) -> Message:
     assert process.stdin is not None
     assert process.stdout is not None
-    pickle.dump(question, process.stdin)
-    process.stdin.flush()
-    return pickle.load(process.stdout)
+    send(process.stdin, question)  # type: ignore[arg-type]
+    return receive(process.stdout, answer)  # type: ignore[arg-type]
 
 
 @contextmanager

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import importlib
 import os
-import pickle
 import signal
 import sys
 import threading
@@ -14,7 +13,8 @@ from queue import SimpleQueue
 from typing import BinaryIO
 
 from .._version import __version__
-from .model import Item, Limits, Settings
+from .messages import Done, Ready, Task, receive, send
+from .model import Limits
 
 
 def main() -> None:
@@ -25,8 +25,8 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     warnings.simplefilter("ignore")
-    limits: Limits = pickle.load(tasks)
-    todo: SimpleQueue[tuple[Item, Settings]] = SimpleQueue()
+    limits = receive(tasks, Limits)
+    todo: SimpleQueue[Task] = SimpleQueue()
     threading.Thread(target=_listen, args=(tasks, todo), daemon=True).start()
 
     from ..memory import ran_out
@@ -39,28 +39,28 @@ def main() -> None:
         importlib.import_module(name)
     if limits.memory is not None:
         _limit(limits.memory)
-    _answer(answers, __version__)
+    _answer(answers, Ready(__version__))
     while True:
-        row, failure = run(*todo.get(), limits)
+        task = todo.get()
+        row, failure = run(task.item, task.settings, limits)
         # Memory in pieces serves nobody: the next mesh gets a fresh process.
         spent = failure is not None and ran_out(failure)
-        _answer(answers, (row, spent))
+        _answer(answers, Done(row, spent))
 
 
-def _listen(tasks: BinaryIO, todo: SimpleQueue[tuple[Item, Settings]]) -> None:
+def _listen(tasks: BinaryIO, todo: SimpleQueue[Task]) -> None:
     """Take tasks while the worker works, so that it does not outlive its parent, be it at work for ever."""
     while True:
         try:
-            todo.put(pickle.load(tasks))
+            todo.put(receive(tasks, Task))
         except BaseException:
             os._exit(0)
 
 
-def _answer(stream: object, answer: object) -> None:
+def _answer(stream: BinaryIO, answer: Ready | Done) -> None:
     """Hand an answer over; a parent that is gone wants none."""
     try:
-        pickle.dump(answer, stream)  # type: ignore[arg-type]
-        stream.flush()  # type: ignore[attr-defined]
+        send(stream, answer)
     except BrokenPipeError:
         os._exit(0)
 

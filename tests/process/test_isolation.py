@@ -26,9 +26,7 @@ DANGEROUS = {
 # the commands tell the C library how to keep memory.
 ALLOWED = {
     ("curvcli/commands/allocation.py", "ctypes"),
-    ("curvcli/batch/processes.py", "pickle"),
     ("curvcli/batch/processes.py", "subprocess"),
-    ("curvcli/batch/worker.py", "pickle"),
 }
 HARMLESS = {("urllib.request", "url2pathname")}  # rewrites a string
 
