@@ -12,7 +12,13 @@ from ..surface import Surface
 from .base import Outcome, check, exclude_null
 
 
-@check
+@check(
+    gap="2π(2 + 2g) − ΣK⁺ − ΣK⁻",
+    applies="closed orientable manifolds, per component",
+    bound="16ε(F + V)",
+    failure="the normal cones of K⁺ or K⁻ are too small somewhere: every closed surface of genus g has at least this "
+    "much curvature.",
+)
 def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K_minus: Column) -> Outcome:
     """ΣK⁺ + ΣK⁻ ≥ 2π(2 + 2g) for each closed orientable component (Chern–Lashof); equality means tight."""
     counts = census(surface, groups)

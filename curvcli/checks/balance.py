@@ -55,7 +55,12 @@ def _arms(surface: Surface) -> Floats:
     return np.maximum(distance[surface.edges.a], distance[surface.edges.b])
 
 
-@check
+@check(
+    gap="ΣH_p − Ση|e|",
+    applies="every surface, orientable or not; not where H_vec is undefined at a corner of a degenerate face",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of the length of their edges",
+    failure="H_vec of some vertex is wrong, or an edge was taken for boundary that is not.",
+)
 def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_length: Column) -> Outcome:
     """Σ η|e| over the boundary = Σ H_p: translations change no area; needs no orientation."""
     segments, _, conormal = _boundary(surface, groups)
@@ -66,7 +71,12 @@ def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_le
     return outcome
 
 
-@check
+@check(
+    gap="Σp × H_p − Σm × η|e|",
+    applies="as force_balance",
+    bound="(16 + log₂N)ε · Σ edge length · distance from the base, over all faces at the edge",
+    failure="if force_balance passes: values of H_vec stand at the wrong vertices.",
+)
 def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_length: Column) -> Outcome:
     """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
@@ -84,7 +94,12 @@ def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_l
     return outcome
 
 
-@check
+@check(
+    gap="Σp·H_p + 2 area − Σm·η|e|",
+    applies="as force_balance",
+    bound="(16 + log₂N)ε · Σ edge length · distance from the base, over all faces at the edge",
+    failure="if force_balance passes: the area of a face is wrong, or values of H_vec stand at the wrong vertices.",
+)
 def position_balance(
     surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, edge_length: Column
 ) -> Outcome:
@@ -103,7 +118,13 @@ def position_balance(
     return outcome
 
 
-@check
+@check(
+    gap="ΣA_p − ½Σ a × b",
+    applies="orientable surfaces",
+    bound="(16 + log₂N)ε · (area + ½Σ|a||b| over the half-edges that do not cancel) + ε · Σ|e|² over the faces at "
+    "each edge",
+    failure="A_vec of some vertex, or the orientation of some face, is wrong.",
+)
 def vector_area(
     surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, edge_length: Column
 ) -> Outcome:

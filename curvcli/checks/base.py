@@ -63,12 +63,20 @@ class Outcome:
 
 @dataclass(frozen=True)
 class CheckRule:
-    """A registered check: a function of the surface, the groups and the quantities that its parameters name."""
+    """A registered check: a function of the surface, the groups and the quantities that its parameters name.
+
+    statement: the identity. gap: what a failure says is not zero, or too large. applies: where it can be tested.
+    bound: how the tolerance is derived. failure: what a failure means.
+    """
 
     name: str
     function: Callable[..., Outcome]
     needs: tuple[str, ...]
     statement: str
+    gap: str = ""
+    applies: str = ""
+    bound: str = ""
+    failure: str = ""
 
     def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
         """The check on every group."""
@@ -100,13 +108,20 @@ class CheckRule:
 rules: dict[str, CheckRule] = {}
 
 
-def check(function: Callable[..., Outcome]) -> CheckRule:
-    """Register a check under its function's name; its parameters after surface and groups name what it needs."""
-    needs = tuple(inspect.signature(function).parameters)[2:]
-    statement = inspect.cleandoc(function.__doc__ or "")
-    rule = CheckRule(function.__name__, function, needs, statement)
-    rules[rule.name] = rule
-    return rule
+def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., Outcome]], CheckRule]:
+    """Register a check under its function's name; its parameters after surface and groups name what it needs.
+
+    The keywords are the fields of `CheckRule` for people; the function's docstring is the identity.
+    """
+
+    def register(function: Callable[..., Outcome]) -> CheckRule:
+        needs = tuple(inspect.signature(function).parameters)[2:]
+        statement = inspect.cleandoc(function.__doc__ or "")
+        rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure)
+        rules[rule.name] = rule
+        return rule
+
+    return register
 
 
 def rounding(surface: Surface, absolute: Floats) -> Floats:

@@ -11,7 +11,14 @@ from ..surface import Surface
 from .base import Outcome, check, exclude_null, rounding
 
 
-@check
+@check(
+    gap="E(id) − area",
+    applies="surfaces without degenerate faces, whose cotangents are undefined",
+    bound="(16 + log₂N)ε · Σ|cot θ||e|²/4 over the corners; at each vertex (16 + faces)ε · the same of its star's "
+    "gradient",
+    failure="a cotangent weight is wrong. Needles weaken the test, and do so honestly: their cotangents are large, "
+    "and so is the bound.",
+)
 def dirichlet(
     surface: Surface,
     groups: Groups,

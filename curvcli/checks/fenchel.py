@@ -12,7 +12,12 @@ from ..surface import Surface
 from .base import Outcome, check
 
 
-@check
+@check(
+    gap="2π − Σψ",
+    applies="where there is a closed boundary curve; the loop that turns least is tested",
+    bound="16ε · vertices of the loop",
+    failure="a turning angle of a boundary loop is wrong, or the loop is not walked as it runs.",
+)
 def fenchel(surface: Surface, groups: Groups) -> Outcome:
     """Every closed boundary curve has total curvature Σψ ≥ 2π, with equality if it is plane and convex."""
     least, vertices = np.full(groups.count, np.inf), np.ones(groups.count)

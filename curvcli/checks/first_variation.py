@@ -14,7 +14,14 @@ from .base import Floats, Outcome, check
 SAMPLES = 64
 
 
-@check
+@check(
+    gap="gradient − central difference, in units of its error bound",
+    applies="64 vertices spread over those that no degenerate face touches",
+    bound="1, in units of the error of the difference: truncation, step² · Σ|e|/height², and rounding, ε(16 + "
+    "faces) · Σ(reach² + reach·|e|)/step, with step = ε^⅓ · the least height at the vertex",
+    failure="a gradient is not the derivative of what it is named after. This is the one identity that moves "
+    "vertices: it does not share its formulas with what it tests.",
+)
 def first_variation(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, A_vec: VectorColumn, degenerate: Flags
 ) -> Outcome:

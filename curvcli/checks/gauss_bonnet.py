@@ -12,7 +12,13 @@ from ..surface import Surface
 from .base import Outcome, check, exclude_null, rounding
 
 
-@check
+@check(
+    gap="ΣK + Σκ_g − 2πχ",
+    applies="every triangle complex, also pinched, open, one-sided or with more than two faces at an edge; not where "
+    "K is undefined at a vertex",
+    bound="16ε(F + V): π and 2π are rounded once at each face and each vertex, and each angle has an error of a few ε",
+    failure="an angle, a vertex's curvature or χ is wrong. No mesh fails it for its shape.",
+)
 def gauss_bonnet(surface: Surface, groups: Groups, K: Column, kappa_g: Column) -> Outcome:
     """ΣK + Σκ_g = 2πχ for any triangle complex; certifies the curvatures and χ, not that the mesh is sound."""
     counts = census(surface, groups)
@@ -24,7 +30,12 @@ def gauss_bonnet(surface: Surface, groups: Groups, K: Column, kappa_g: Column) -
     return outcome
 
 
-@check
+@check(
+    gap="ΣK_comb − 2πχ",
+    applies="every triangle complex",
+    bound="(16 + log₂N)ε · (Σ|K_comb| + 2π|χ|)",
+    failure="edges, degrees or χ were counted wrongly: topology contradicts itself.",
+)
 def gauss_bonnet_combinatorial(surface: Surface, groups: Groups, K_comb: Column) -> Outcome:
     """ΣK_comb = 2πχ: Gauss–Bonnet with every triangle equilateral; counts the mesh against itself."""
     counts = census(surface, groups)

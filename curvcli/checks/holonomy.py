@@ -18,7 +18,13 @@ from .base import Outcome, check
 LARGEST_STAR = 256
 
 
-@check
+@check(
+    gap="rotation − K_p (mod 2π)",
+    applies="interior vertices of at most 256 faces, all of which have an area",
+    bound="(16 + log₂n)ε · πn, n the most faces at a vertex: one rotation of a few ε per face",
+    failure="K of a vertex is not the rotation that the faces round it make: an angle, or the order of the faces, is "
+    "wrong there.",
+)
 def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorColumn) -> Outcome:
     """Carrying a tangent vector counterclockwise round p, across one edge after another, turns it by +K_p (mod 2π)."""
     count = surface.corner_count

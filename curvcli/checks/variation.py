@@ -14,7 +14,13 @@ from .balance import offsets, vector_sum
 from .base import Outcome, check, exclude_null, rounding
 
 
-@check
+@check(
+    gap="Σp·∇_p area − 2 area",
+    applies="not where area_gradient is undefined at a corner of a degenerate face",
+    bound="(16 + log₂N)ε · Σ edge length · distance from the base, over all faces at the edge; for the sum of "
+    "gradients without the distance",
+    failure="the gradient of area is wrong at some vertex; detail says whether its sum is not zero either.",
+)
 def area_gradient(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, edge_length: Column
 ) -> Outcome:
@@ -45,7 +51,12 @@ def area_gradient(
     return outcome
 
 
-@check
+@check(
+    gap="Σp·A_p − 3 vol",
+    applies="closed orientable surfaces whose oriented faces cancel at every edge",
+    bound="(16 + log₂N)ε · Σ area · distance from the base, over the faces",
+    failure="A_vec of some vertex or the volume is wrong.",
+)
 def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column) -> Outcome:
     """Σ p·A_p = 3 vol on closed orientable surfaces."""
     counts = census(surface, groups)
