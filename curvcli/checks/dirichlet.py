@@ -14,10 +14,10 @@ from .base import Outcome, check, exclude_null, rounding
 @check(
     gap="E(id) − area",
     applies="surfaces without degenerate faces, whose cotangents are undefined",
-    bound="(16 + log₂N)ε · Σ|cot θ||e|²/4 over the corners; at each vertex (16 + faces)ε · the same of its star's "
-    "gradient",
-    failure="a cotangent weight is wrong. Needles weaken the test, and do so honestly: their cotangents are large, "
-    "and so is the bound.",
+    bound="(16 + log₂N)ε · ¼Σ |opposite edge|²/sin θ over the corners; at each vertex (16 + faces)ε · ½Σ |e|/sin of "
+    "the angle opposite e",
+    failure="a cotangent weight is wrong. Needles weaken the test: the sines of their angles are small, and the bound "
+    "is as large as their rounding.",
 )
 def dirichlet(
     surface: Surface,

@@ -24,12 +24,14 @@ class Kind:
     """One name of --require: its test returns what is wrong, or nothing.
 
     number: what stands behind the equals sign, `N` (a whole number), `TOL` (not negative) or nothing at all.
+    remedy: what to do about a mesh that fails.
     """
 
     name: str
     test: Test
     number: Number
     statement: str
+    remedy: str
 
     @property
     def usage(self) -> str:
@@ -57,11 +59,11 @@ class Requirement:
 kinds: dict[str, Kind] = {}
 
 
-def requirement(name: str, number: Number = "") -> Callable[[Test], Test]:
+def requirement(name: str, number: Number = "", *, remedy: str) -> Callable[[Test], Test]:
     """Register a requirement; the function's docstring says what it promises."""
 
     def register(test: Test) -> Test:
-        kinds[name] = Kind(name, test, number, (test.__doc__ or "").strip().rstrip("."))
+        kinds[name] = Kind(name, test, number, (test.__doc__ or "").strip().rstrip("."), remedy)
         return test
 
     return register

@@ -16,7 +16,7 @@ from .places import joined, vertices
 from .topology import closed, connected, euler, manifold, oriented
 
 
-@requirement("convex")
+@requirement("convex", remedy="look where `K_minus` is largest: there the surface is not convex")
 def convex(analysis: Analysis) -> str:
     """The surface bounds a convex body: closed, connected, χ = 2 and ΣK⁻ = 0."""
     surface = analysis.surface
@@ -35,13 +35,17 @@ def convex(analysis: Analysis) -> str:
     return f"ΣK⁻ = {float(surface.whole.vertices.sum(K_minus)[0]):.6g} (allowed {bound:.2g}), most at vertex {worst}"
 
 
-@requirement("minimal", "TOL")
+@requirement(
+    "minimal",
+    "TOL",
+    remedy="refine or evolve the surface, or allow more; `H_vec` is largest at the worst vertex",
+)
 def minimal(analysis: Analysis, tolerance: float) -> str:
     """The largest |H_p| inside is at most TOL, in the file's unit of length."""
     return _largest(analysis, "H_vec_max", "|H_p|", tolerance)
 
 
-@requirement("cmc", "TOL")
+@requirement("cmc", "TOL", remedy="refine or evolve the surface, or allow more")
 def cmc(analysis: Analysis, tolerance: float) -> str:
     """The largest |H_p + H A_p| inside, H the best constant, is at most TOL, in the file's unit of length."""
     return _largest(analysis, "residual_max", "|H_p + H A_p|", tolerance)

@@ -13,7 +13,7 @@ from .places import counted, faces, joined, vertices
 _DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
 
 
-@requirement("no-degenerate")
+@requirement("no-degenerate", remedy="`--weld exact` drops faces with two corners at one place; remesh the others")
 def no_degenerate(analysis: Analysis) -> str:
     """Every face has an area, and none had to be dropped."""
     surface = analysis.surface
@@ -27,13 +27,13 @@ def no_degenerate(analysis: Analysis) -> str:
     return joined(faces(surface, np.flatnonzero(analysis.columns["degenerate_face"]), "without area"), *dropped)
 
 
-@requirement("no-duplicate-faces")
+@requirement("no-duplicate-faces", remedy="remove the later of each two: both add to areas and angles")
 def no_duplicate_faces(analysis: Analysis) -> str:
     """No two faces have the same corners."""
     return faces(analysis.surface, duplicate_faces(analysis.surface), "with the corners of an earlier one")
 
 
-@requirement("no-unreferenced")
+@requirement("no-unreferenced", remedy="remove them from the file; they change no value")
 def no_unreferenced(analysis: Analysis) -> str:
     """Every vertex belongs to a face."""
     surface = analysis.surface
@@ -43,7 +43,7 @@ def no_unreferenced(analysis: Analysis) -> str:
     return vertices(np.flatnonzero(loose), "that no face uses", "that no face uses")
 
 
-@requirement("no-duplicate-vertices")
+@requirement("no-duplicate-vertices", remedy="`--weld exact` merges them")
 def no_duplicate_vertices(analysis: Analysis) -> str:
     """No two vertices of faces are at the same position."""
     twice = duplicate_vertices(analysis.surface)

@@ -12,13 +12,20 @@ from .base import requirement
 from .places import counted, edges, face_name, joined, vertices
 
 
-@requirement("closed")
+@requirement(
+    "closed",
+    remedy="fill the holes; where positions repeat, `--weld exact` or a tolerance may close the seams",
+)
 def closed(analysis: Analysis) -> str:
     """No edge has only one face."""
     return edges(analysis.surface, analysis.surface.boundary_edges, "with only one face")
 
 
-@requirement("manifold")
+@requirement(
+    "manifold",
+    remedy="part the surface where more than two faces meet, give each fan that only touches a vertex of its "
+    "own; `--table edges=PATH` lists the edges",
+)
 def manifold(analysis: Analysis) -> str:
     """Every edge has at most two faces and every star is one fan."""
     surface = analysis.surface
@@ -29,7 +36,10 @@ def manifold(analysis: Analysis) -> str:
     )
 
 
-@requirement("oriented")
+@requirement(
+    "oriented",
+    remedy="a one-sided surface has no orientation: cut it open, or look for a face that joins two sides",
+)
 def oriented(analysis: Analysis) -> str:
     """Every patch has an orientation, whether or not the file winds it so."""
     surface = analysis.surface
@@ -40,13 +50,16 @@ def oriented(analysis: Analysis) -> str:
     return counted(patches, "patch without an orientation", "patches without an orientation", first) if patches else ""
 
 
-@requirement("consistent-winding")
+@requirement(
+    "consistent-winding",
+    remedy="turn the faces in the file; the computation turns them for itself and says how many",
+)
 def consistent_winding(analysis: Analysis) -> str:
     """Neighbouring faces run along their common edge opposite ways."""
     return edges(analysis.surface, analysis.surface.winding_conflicts, "along which both faces run the same way")
 
 
-@requirement("outward")
+@requirement("outward", remedy="reverse all faces of the patch named, or analyse with `--orient outward`")
 def outward(analysis: Analysis) -> str:
     """Every closed patch has positive volume as the file winds it; open ones have no outside."""
     surface = analysis.surface
@@ -59,13 +72,17 @@ def outward(analysis: Analysis) -> str:
     return ""
 
 
-@requirement("connected")
+@requirement("connected", remedy="remove loose parts; `--table components=PATH` lists them")
 def connected(analysis: Analysis) -> str:
     """There is one component."""
     return components(analysis, 1)
 
 
-@requirement("genus", "N")
+@requirement(
+    "genus",
+    "N",
+    remedy="look for a handle or a hole nobody wanted; `--table components=PATH` has χ and loops of each part",
+)
 def genus(analysis: Analysis, wanted: float) -> str:
     """The genus, summed over the components, is N."""
     surface = analysis.surface
@@ -76,7 +93,11 @@ def genus(analysis: Analysis, wanted: float) -> str:
     return "" if found == wanted else f"the genus is {round(found)}, expected {wanted}"
 
 
-@requirement("euler", "N")
+@requirement(
+    "euler",
+    "N",
+    remedy="look for a handle, a hole or a part nobody wanted; `--table components=PATH` has χ of each part",
+)
 def euler(analysis: Analysis, wanted: float) -> str:
     """The Euler characteristic V − E + F is N."""
     counts = census(analysis.surface, analysis.surface.whole)
@@ -84,7 +105,11 @@ def euler(analysis: Analysis, wanted: float) -> str:
     return "" if found == wanted else f"χ = {found}, expected {wanted}"
 
 
-@requirement("components", "N")
+@requirement(
+    "components",
+    "N",
+    remedy="remove loose parts or join what belongs together; `--table components=PATH` lists them",
+)
 def components(analysis: Analysis, wanted: float) -> str:
     """There are N components."""
     surface = analysis.surface

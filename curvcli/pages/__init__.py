@@ -1,0 +1,50 @@
+"""Pages of the documentation that are made from the code: `python -m curvcli.pages docs` makes them again."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+from ..report.quantities import page as quantities
+from .checks import page as checks
+from .command_line import page as command_line
+from .keys import page_part as report
+from .suffixes import page_part as outputs
+from .tables import page_part as columns
+
+# Whole pages by their name in docs/.
+PAGES: dict[str, Callable[[], str]] = {
+    "quantities.md": quantities,
+    "checks.md": checks,
+    "command-line.md": command_line,
+}
+
+# Parts of pages: what stands between `<!-- made: NAME -->` and `<!-- end -->`.
+PARTS: dict[str, Callable[[], str]] = {
+    "outputs": outputs,
+    "columns": columns,
+    "report": report,
+}
+
+_PART = re.compile(r"(<!-- made: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+
+def current(name: str, text: str) -> str:
+    """A page as the code would make it now; `text` where it is written by hand, but for the parts that are not."""
+    if name in PAGES:
+        return PAGES[name]()
+    return _PART.sub(lambda found: f"{found[1]}{PARTS[found[2]]()}{found[3]}", text)
+
+
+def renew(folder: Path) -> list[str]:
+    """Make the pages of a folder again; the names of those that changed."""
+    changed = []
+    for path in sorted(folder.glob("**/*.md")):
+        name = str(path.relative_to(folder))
+        text = path.read_text(encoding="utf-8")
+        new = current(name, text)
+        if new != text:
+            path.write_text(new, encoding="utf-8")
+            changed.append(name)
+    return changed

@@ -1,0 +1,70 @@
+"""The page of the checks: identities and requirements, from their declarations."""
+
+from __future__ import annotations
+
+from ..checks import CheckRule, rules
+from ..pipeline import load_passes
+from ..requirements import DEFAULT, kinds
+
+_INTRODUCTION = """\
+# Checks
+
+Made from the declarations in `curvcli/checks/` and `curvcli/requirements/`. ε = 2⁻⁵²; F and V count faces and
+vertices, N is 3F + V. An *identity* is a theorem: it holds for every mesh that it applies to, up to rounding, and so it
+proves the arithmetic, not the mesh. A *requirement* is a property that a mesh has or has not.
+
+`curvcli analyze` tests each identity whose quantities are computed anyway; `curvcli check` tests all of them, and the
+requirements. Each is tested on the whole surface, on every component, and on every region where there are regions.
+The status is `pass`, `fail`, or `not_applicable` with the reason; an identity with an undefined term is not applicable,
+never passed.
+
+## When an identity fails
+
+1. Read `scope` and `detail`: they name the component or region, and by how much it fails.
+2. Read the warnings of the report. Values beyond the range of doubles (`out_of_range`) are undefined.
+3. Run the same file with `-p all`: other identities over the same columns tell which column is wrong.
+4. If columns of a plug-in are among what it needs, ask its author.
+5. Otherwise it is a defect of curvcli or of the machine. No shape of a mesh explains it. Please report it, with the
+   file if you may.
+"""
+
+_REQUIREMENTS = """\
+## Requirements
+
+A requirement that fails says how many places there are and names the first. Those marked * are required by
+`curvcli check` unless `--allow NAME` drops them; the others are asked for with `--require`.
+
+| requirement | what it promises | where it fails |
+|---|---|---|
+"""
+
+
+def page() -> str:
+    """The documentation page of all checks, in Markdown."""
+    load_passes()  # plug-ins may bring identities of their own
+    parts = [_INTRODUCTION, "## Identities\n", *(_identity(rule) for rule in rules.values())]
+    rows = [
+        f"| `{one.usage}`{' *' if name in DEFAULT else ''} | {_cell(one.statement)} |" for name, one in kinds.items()
+    ]
+    return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows)]) + "\n"
+
+
+def _identity(rule: CheckRule) -> str:
+    lines = [f"### `{rule.name}`\n", f"{rule.statement}\n"]
+    told = (
+        ("tested", rule.gap),
+        ("applies to", rule.applies),
+        ("tolerance", rule.bound),
+        ("needs", ", ".join(f"`{need}`" for need in rule.needs)),
+        ("a failure means", rule.failure),
+    )
+    return "\n".join([*lines, *(f"* {label}: {_text(value)}" for label, value in told if value)]) + "\n"
+
+
+def _text(value: str) -> str:
+    """Text in which Markdown finds nothing to mark."""
+    return value.replace("*", r"\*")
+
+
+def _cell(value: str) -> str:
+    return _text(value).replace("|", r"\|")

@@ -1,0 +1,19 @@
+"""The formats of outputs as a table."""
+
+from __future__ import annotations
+
+from ..output.formats import FORMATS
+
+_HOLDS = {
+    "table": "rows and columns",
+    "mesh": "the surface with its columns",
+    "triangles": "the surface alone",
+    "report": "the report",
+    "picture": "a picture",
+}
+
+
+def page_part() -> str:
+    """The suffixes of outputs, what they hold and how."""
+    rows = [f"| `{one.suffix}` | {_HOLDS.get(one.kind, one.kind)} | {one.description} |" for one in FORMATS.values()]
+    return "\n".join(["| suffix | holds | format |", "|---|---|---|", *rows]) + "\n"
