@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 
 from . import findings
 from .checks import Check, rules
-from .declare import CELL_AREAS, Element, Quantity, passes
+from .declare import AT_SCALE, CELL_AREAS, Element, Quantity, passes
 from .errors import Notice, UsageError
 from .groups import Groups
 from .loading.surfaces import Orient, as_surface
-from .pipeline import evaluate, presented, resolve, schedule
+from .pipeline import at_scales, evaluate, presented, resolve, schedule
 from .regions import Regions, cut_apart, find_regions
 from .regions import findings as region_findings
+from .settings import DEFAULTS, Settings, parse_scales
 from .surface import Surface
 from .totals import lost, lost_totals, totals
 
@@ -46,6 +47,8 @@ class Conventions:
     weld: str = "none"
     unit: str | None = None
     regions: str | None = None
+    scale: str | None = None
+    normals: str | None = None
 
 
 class Columns(Mapping[str, Array]):
@@ -93,8 +96,10 @@ class Analysis:
         conventions: Conventions,
         regions: Regions | None = None,
         checks: Iterable[str] | None = None,
+        settings: Settings = DEFAULTS,
     ) -> None:
         self.surface, self.chosen, self.conventions, self.regions = surface, chosen, conventions, regions
+        self.settings = settings
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
         self._rules = self._applicable_rules() if checks is None else [rules[name] for name in checks]
@@ -105,17 +110,18 @@ class Analysis:
             *self._flags,
             *(need for rule in self._rules for need in rule.needs),
         }
-        self.columns = evaluate(surface, wanted, area=conventions.area)
+        self.columns = evaluate(surface, wanted, area=conventions.area, settings=settings)
         self._later: dict[str, Array] = {}
         self.cut: Analysis | None = None
         if regions is not None:
             cut, self.cut_groups = cut_apart(surface, regions)
-            self.cut = Analysis(cut, chosen, conventions, checks=[rule.name for rule in self._rules])
+            self.cut = Analysis(cut, chosen, conventions, checks=[rule.name for rule in self._rules], settings=settings)
 
     @cached_property
     def _closure(self) -> set[str]:
         """Every quantity that is computed on the way to the chosen ones."""
-        order = schedule([*self.chosen, *_ALWAYS], self.conventions.area)
+        plain = (name.partition(AT_SCALE)[0] for name in self.chosen)
+        order = schedule([*plain, *_ALWAYS], self.conventions.area)
         return {quantity.name for one in order for quantity in one.provides}
 
     @cached_property
@@ -148,7 +154,8 @@ class Analysis:
         """A column as computed; those of a table asked for later are kept apart, so that no report depends on it."""
         if name not in self.columns and name not in self._later:
             known = {**self.columns, **self._later}
-            self._later = evaluate(self.surface, [name], area=self.conventions.area, known=known)
+            area, settings = self.conventions.area, self.settings
+            self._later = evaluate(self.surface, [name], area=area, settings=settings, known=known)
         return self.columns[name] if name in self.columns else self._later[name]
 
     @cached_property
@@ -266,7 +273,7 @@ def plain(value: Any) -> Any:
 
 def analyze(
     surface: Any,
-    passes: str | Iterable[str] = "core",
+    passes: str | Iterable[str] | None = None,
     *,
     area: Literal["barycentric", "mixed", "voronoi"] = "barycentric",
     mean: Literal["sum", "average"] = "sum",
@@ -275,32 +282,58 @@ def analyze(
     unit: str | None = None,
     regions: str | NDArray[np.integer[Any]] | None = None,
     checks: Iterable[str] | None = None,
+    rings: str | int | None = None,
+    radius: str | float | None = None,
+    normals: Literal["mesh", "file"] = "mesh",
 ) -> Analysis:
     """Compute curvatures of a surface, its totals and the identities that prove them.
 
     surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
-    passes: a preset (`topology`, `core`, `paper`, `all`) or names. area: the cell of `K_density`. mean: whether H is
+    passes: a preset (`topology`, `core`, `paper`, `estimates`, `all`) or names; None is `core`, with `estimates` where
+    a scale is asked for. area: the cell of `K_density`. mean: whether H is
     κ₁ + κ₂ or their average. orient: `file`, or `outward` to turn closed patches that are inside out; None is what a
     Surface was made with, else `file`. weld: see `curvcli.load`. unit: a label for lengths. regions: a label per face
     (negative: none), or the name of the file, record or property that holds them. checks: names of the identities to
-    test, whatever they need; None is those whose needs the chosen passes meet.
+    test, whatever they need; None is those whose needs the chosen passes meet. rings, radius: how far estimates look,
+    in rings of edges or at a radius (a length, or mean edge lengths such as `3e`); several (`2e,4e`) give one column
+    for each. normals: whose normals the corrected curvatures use, the mesh's or those the file gives.
     Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
     """
-    chosen = resolve([passes] if isinstance(passes, str) else passes)
+    scales = parse_scales(rings, radius)
+    settings = Settings(scales or DEFAULTS.scales, normals)
+    chosen = choose(passes, settings, bool(scales))
     options = (
         ("area", area, tuple(CELL_AREAS)),
         ("mean", mean, ("sum", "average")),
         ("orient", orient or "file", ("file", "outward")),
+        ("normals", normals, ("mesh", "file")),
     )
     for option, value, known in options:
         if value not in known:
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld)
     named = regions if regions is None or isinstance(regions, str) else "array"
-    conventions = Conventions(mean, area, found.orient, found.file.weld if found.file else "none", unit, named)
+    weld = found.file.weld if found.file else "none"
+    conventions = Conventions(mean, area, found.orient, weld, unit, named, *told(chosen, settings))
     named_checks = None if checks is None else known_checks(checks)
     labels = None if regions is None else find_regions(found, regions)
-    return Analysis(found, chosen, conventions, labels, named_checks)
+    return Analysis(found, chosen, conventions, labels, named_checks, settings)
+
+
+def choose(passes: str | Iterable[str] | None, settings: Settings, scaled: bool) -> list[str]:
+    """The columns of an analysis: those named, or `core`, with `estimates` where a scale is asked for."""
+    if passes is None:
+        passes = ("core", "estimates") if scaled else "core"
+    return at_scales(resolve([passes] if isinstance(passes, str) else passes), settings)
+
+
+def told(chosen: Iterable[str], settings: Settings) -> tuple[str | None, str | None]:
+    """The scales and the normals that the chosen columns depend on, None where they do not."""
+    plain = {name.partition(AT_SCALE)[0] for name in chosen}
+    scaled = any(passes.depends_on_scale(name) for name in plain)
+    used = any("normals" in one.needs for one in schedule(plain, "barycentric"))
+    scales = ",".join(scale.name for scale in settings.scales)
+    return scales if scaled else None, settings.normals if used else None
 
 
 def known_checks(names: Iterable[str]) -> list[str]:

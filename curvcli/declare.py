@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import UsageError
+from .settings import PARAMETERS
 
 if TYPE_CHECKING:
     pass
@@ -32,6 +33,9 @@ Parity = Literal["even", "odd"]
 
 # Parameters that are no quantity: the surface itself, and the area that `--area` chooses.
 SURFACE, CELL_AREA = "surface", "cell_area"
+# The others are answered by `Settings`; what depends on the scale is named `NAME@SCALE` where there are several.
+NO_QUANTITIES = (SURFACE, *PARAMETERS)
+AT_SCALE = "@"
 CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
 
 
@@ -133,8 +137,8 @@ class Registry(Mapping[str, Pass]):
     def add(self, new: Pass) -> None:
         """Register a pass; its needs must be known and its columns new, so that a misspelling fails at import."""
         for need in new.needs:
-            if need not in self._providers and need not in (SURFACE, CELL_AREA):
-                near = get_close_matches(need, [*self._providers, SURFACE, CELL_AREA], 3)
+            if need not in self._providers and need not in (*NO_QUANTITIES, CELL_AREA):
+                near = get_close_matches(need, [*self._providers, *NO_QUANTITIES, CELL_AREA], 3)
                 raise UsageError(f"pass {new.name} needs {need}, which no pass provides; nearest: {', '.join(near)}")
         names = [quantity.name for quantity in new.provides]
         for name in names:
@@ -150,8 +154,15 @@ class Registry(Mapping[str, Pass]):
         return self._providers[quantity]
 
     def quantity(self, name: str) -> Quantity:
-        """The declaration of a quantity."""
-        return next(quantity for quantity in self._providers[name].provides if quantity.name == name)
+        """The declaration of a quantity, also of one at a scale."""
+        plain, _, scale = name.partition(AT_SCALE)
+        found = next(quantity for quantity in self._providers[plain].provides if quantity.name == plain)
+        return replace(found, name=name, column=f"{found.stem}_{scale}") if scale else found
+
+    def depends_on_scale(self, name: str) -> bool:
+        """Whether a quantity, or one that it needs, looks at neighbourhoods."""
+        needs = self._providers[name].needs
+        return "scale" in needs or any(self.depends_on_scale(need) for need in needs if need in self._providers)
 
     def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
         """Quantities in the order of declaration."""

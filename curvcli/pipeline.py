@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Set
+from dataclasses import replace
 from difflib import get_close_matches
 from functools import cache
 from graphlib import TopologicalSorter
@@ -11,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
-from .declare import CELL_AREA, CELL_AREAS, SURFACE, Pass, Quantity, passes
+from .declare import AT_SCALE, CELL_AREA, CELL_AREAS, NO_QUANTITIES, SURFACE, Pass, Quantity, passes
 from .errors import UsageError
+from .settings import DEFAULTS, Settings
 
 if TYPE_CHECKING:
     from .surface import Surface
@@ -37,6 +39,7 @@ def resolve(names: Iterable[str]) -> list[str]:
         "topology": ["status", "degree"],
         "core": CORE,
         "paper": [q.name for q in public.values() if q.source.startswith("Sullivan")],
+        "estimates": [name for name in public if passes.depends_on_scale(name)],
         "all": list(public),
     }
     stems = {column: q.name for q in reversed(public.values()) for column in (q.stem, *q.columns)}
@@ -69,7 +72,7 @@ def in_order(names: Iterable[str]) -> list[str]:
 
 def needs(one: Pass, area: str) -> list[str]:
     """The quantities a pass needs, the chosen cell area under its own name."""
-    return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need != SURFACE]
+    return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need not in NO_QUANTITIES]
 
 
 def schedule(names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Pass]:
@@ -86,23 +89,67 @@ def schedule(names: Iterable[str], area: str, have: Set[str] = frozenset()) -> l
     return [passes[name] for name in TopologicalSorter(graph).static_order()]
 
 
+def at_scales(names: Iterable[str], settings: Settings) -> list[str]:
+    """The names, those that depend on the scale once for each where there are several: `K_ring@2e`."""
+    load_passes()
+    if len(settings.scales) == 1:
+        return list(names)
+    each = [AT_SCALE + scale.name for scale in settings.scales]
+    return [name + scale for name in names for scale in (each if passes.depends_on_scale(name) else [""])]
+
+
 def evaluate(
-    surface: Surface, names: Iterable[str], *, area: str = "barycentric", known: Mapping[str, Array] | None = None
+    surface: Surface,
+    names: Iterable[str],
+    *,
+    area: str = "barycentric",
+    settings: Settings = DEFAULTS,
+    known: Mapping[str, Array] | None = None,
 ) -> dict[str, Array]:
     """Compute the named quantities and only what they need; every pass runs once, intermediates are let go.
 
-    area: which cell area `K_density` and what follows from it use. known: columns that need not be computed again.
+    area: which cell area `K_density` and what follows from it use. settings: what estimators are told; names that
+    depend on the scale may say which, `NAME@SCALE`. known: columns that need not be computed again.
     Arrays are frozen, in the unit of computation and the sum convention of H.
     """
+    have = dict(known or {})
+    wanted = {name for name in names if name not in have}
+    plain = {name for name in wanted if AT_SCALE not in name}
+    have |= _evaluate(surface, plain | _shared(wanted - plain, area), area, settings, have)
+    for scale in settings.scales:
+        suffix = AT_SCALE + scale.name
+        here = {name.removesuffix(suffix) for name in wanted if name.endswith(suffix)}
+        if here:
+            same = {k: column for k, column in have.items() if AT_SCALE not in k and not passes.depends_on_scale(k)}
+            found = _evaluate(surface, here, area, replace(settings, scales=(scale,)), same)
+            have |= {name + suffix: found[name] for name in here}
+    return have
+
+
+def _shared(names: Iterable[str], area: str) -> set[str]:
+    """What several scales have in common of the way to the names at them."""
+    order = schedule((name.partition(AT_SCALE)[0] for name in names), area)
+    scaled = [one for one in order if passes.depends_on_scale(one.provides[0].name)]
+    return {need for one in scaled for need in needs(one, area) if not passes.depends_on_scale(need)}
+
+
+def _evaluate(
+    surface: Surface, names: Iterable[str], area: str, settings: Settings, known: Mapping[str, Array]
+) -> dict[str, Array]:
+    """The known columns and the named ones, at one scale."""
     load_passes()
-    have: dict[str, Array] = dict(known or {})
+    have: dict[str, Array] = dict(known)
     keep = {*names, *have}
 
     order = schedule([name for name in keep if name not in have], area, set(have))
     uses = Counter(need for one in order for need in needs(one, area))
     for one in order:
         required = iter(needs(one, area))
-        found = one.compute(*(surface if need == SURFACE else have[next(required)] for need in one.needs))
+        given = (
+            surface if need == SURFACE else getattr(settings, need) if need in NO_QUANTITIES else have[next(required)]
+            for need in one.needs
+        )
+        found = one.compute(*given)
         for quantity, array in zip(one.provides, found if len(one.provides) > 1 else (found,), strict=True):
             array.setflags(write=False)
             have[quantity.name] = array

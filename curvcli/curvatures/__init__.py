@@ -16,4 +16,5 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     willmore,
     conformal,
     dirichlet,
+    averaged,
 )

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 Value = float | list[float | None] | None
 
+_CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals")
+
 
 class Input(msgspec.Struct):
     """Where the mesh came from; null for arrays made in memory."""
@@ -188,7 +190,7 @@ def model(analysis: Analysis) -> Report:
             vertices=surface.n_vertices,
             polygons=file.polygons if file else surface.n_faces,
         ),
-        conventions={key: getattr(conventions, key) for key in ("mean", "area", "orient", "weld", "unit", "regions")},
+        conventions={key: getattr(conventions, key) for key in _CONVENTIONS},
         topology=whole.topology,
         totals=whole.totals,
         steiner=whole.steiner,

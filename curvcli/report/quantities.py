@@ -9,7 +9,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from ..declare import CELL_AREA, SURFACE, Element, Quantity, passes
+from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
 from ..errors import UsageError
 from ..pipeline import CORE, in_order, load_passes
 
@@ -41,7 +41,7 @@ def find(name: str) -> Quantity:
 
 def facts(quantity: Quantity) -> dict[str, Any]:
     """Everything declared about a quantity, under the names used everywhere."""
-    needs = [need for need in passes.provider(quantity.name).needs if need != SURFACE]
+    needs = [need for need in passes.provider(quantity.name).needs if need not in NO_QUANTITIES]
     return {
         "name": quantity.name,
         "symbol": quantity.symbol.translate(_PLAIN),
