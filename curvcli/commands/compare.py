@@ -67,6 +67,7 @@ _CONVENTIONS = ("passes", "area", "mean", "orient", "weld", "unit", "regions")
 @options.regions
 @options.reading
 @options.force
+@options.schema
 @options.talking
 def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     """What differs between A and B beyond tolerance: topology, totals, checks, columns. Exits with 1 if anything does.

@@ -54,6 +54,7 @@ if TYPE_CHECKING:
 @options.max_bytes
 @options.force
 @options.strict
+@options.schema
 @options.talking
 def command(file: str, **settings: Any) -> int:
     """Length, turning, torsion, frames, writhe and holonomy of every boundary loop of FILE and every `l` record.

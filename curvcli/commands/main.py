@@ -18,9 +18,26 @@ from .config import META, blamed, configure
 from .signals import Ending
 from .streams import complete, refused, settle
 
-COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample")
+COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample", "help", "completion")
+
+# These tell and set up; no configuration concerns them, and a broken one does not stop them.
+UNCONFIGURED = ("help", "completion")
+
+# With this variable set the program completes a line of the shell; see `curvcli completion`.
+COMPLETE = "_CURVCLI_COMPLETE"
 
 OK, FAILED_CHECK, USAGE, INPUT, OUTPUT, NO_MATCH, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130
+
+EXIT_CODES = {
+    OK: "done",
+    FAILED_CHECK: "a check, requirement, assertion or comparison failed; analyze and batch: only with --strict",
+    USAGE: "usage, configuration, an unknown name, or an extra that is not installed",
+    INPUT: "an input is missing, cannot be read or used, or has a suffix that is not promised",
+    OUTPUT: "an output cannot be written or exists already",
+    NO_MATCH: "no file matched a pattern",
+    INTERNAL: "internal error; -vv shows the traceback",
+    INTERRUPTED: "interrupted",
+}
 
 _CODES: tuple[tuple[type[BaseException], int], ...] = (
     (UsageError, USAGE),
@@ -68,7 +85,7 @@ class LazyGroup(click.Group):
         if cmd_name not in COMMANDS:
             return None
         found: click.Command = import_module(f"curvcli.commands.{cmd_name}").command
-        return found
+        return import_module("curvcli.commands.completing").completing(found) if ctx.resilient_parsing else found
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -81,7 +98,8 @@ class LazyGroup(click.Group):
             near = get_close_matches(name, COMMANDS, 1)
             guess = f"; did you mean {near[0]}?" if near else ""
             raise click.UsageError(f"no such command {name!r}, expected one of {', '.join(COMMANDS)}{guess}", ctx)
-        if not ctx.resilient_parsing and not set(args).intersection(ctx.help_option_names):
+        told = name in UNCONFIGURED or set(args).intersection(ctx.help_option_names)
+        if not ctx.resilient_parsing and not told:
             configure(ctx, ctx.params.get("config"), lambda command: self.get_command(ctx, command))
         require(NUMPY)
         keep_memory()
@@ -143,6 +161,9 @@ def explain(error: BaseException) -> int:
         case BrokenPipeError() | SystemExit():
             # Whoever read our output has seen enough (click makes a SystemExit of it, and nothing else here does).
             return OK
+        case click.exceptions.NoArgsIsHelpError():
+            click.echo(error.format_message(), err=True)
+            return USAGE
         case click.UsageError():
             path = error.ctx.command_path if error.ctx else "curvcli"
             say(f"{error.format_message().rstrip('.')}; `{path} --help` tells more")

@@ -19,6 +19,22 @@ def _verbosity(context: click.Context, option: click.Parameter, value: int) -> i
     return value
 
 
+def _schema(context: click.Context, option: click.Parameter, value: bool) -> None:
+    if value and not context.resilient_parsing:
+        from .schemas import say
+
+        say(context.command.name or "")
+        context.exit()
+
+
+schema = click.option(
+    "--schema",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_schema,
+    help="Print the JSON Schema of --json and stop.",
+)
 quiet = click.option("-q", "--quiet", is_flag=True, help="Say nothing but errors.")
 verbose = click.option(
     "-v", "--verbose", count=True, callback=_verbosity, help="Say more, such as which file configures; -vv: tracebacks."

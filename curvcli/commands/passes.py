@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import click
 
+from . import options
+
 
 @click.command("passes", short_help="List every quantity, or explain one.")
 @click.argument("name", required=False)
 @click.option("--json", "as_json", is_flag=True, help="As JSON.")
 @click.option("--markdown", is_flag=True, help="The documentation page of all quantities.")
+@options.schema
 def command(name: str | None, as_json: bool, markdown: bool) -> None:
     """Every quantity with its symbol, formula, kind and unit; with NAME, all that is known about one."""
     from ..report.quantities import describe, listing

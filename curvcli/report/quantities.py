@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, TypedDict
 
 from rich import box
 from rich.console import Console
@@ -14,6 +14,28 @@ from ..errors import UsageError
 from ..pipeline import CORE, in_order, load_passes
 
 _PLAIN = str.maketrans("", "", "*")
+
+
+class Facts(TypedDict):
+    """Everything declared about a quantity, under the names used everywhere."""
+
+    name: str
+    symbol: str
+    on: str
+    kind: str
+    columns: list[str]
+    description: str
+    formula: str
+    unit: str
+    length_exponent: int
+    mean_degree: int
+    parity: str
+    boundary: str
+    preserves: str
+    total: str | None
+    source: str
+    needs: list[str]
+    preset: str
 
 
 def public() -> list[Quantity]:
@@ -39,8 +61,8 @@ def find(name: str) -> Quantity:
     return known[name]
 
 
-def facts(quantity: Quantity) -> dict[str, Any]:
-    """Everything declared about a quantity, under the names used everywhere."""
+def facts(quantity: Quantity) -> Facts:
+    """The facts of a quantity."""
     needs = [need for need in passes.provider(quantity.name).needs if need not in NO_QUANTITIES]
     return {
         "name": quantity.name,
@@ -86,7 +108,7 @@ def listing() -> None:
 
 def describe(name: str) -> None:
     """Print everything about one quantity."""
-    shown = facts(find(name))
+    shown: dict[str, Any] = {**facts(find(name))}
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(overflow="fold")

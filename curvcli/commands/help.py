@@ -1,0 +1,62 @@
+"""`curvcli help`: topics beyond the options of the commands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from .topics import Topic
+
+
+@click.command("help", short_help="Explain a topic or a command; without one, list the topics.")
+@click.argument("topic", required=False)
+def command(topic: str | None) -> int:
+    """Explain TOPIC: conventions, checks, formats, exit codes and more, or a command; without it, list them.
+
+    \b
+      curvcli help
+      curvcli help conventions
+      curvcli help analyze            the same as `curvcli analyze --help`
+    """
+    from .topics import TOPICS
+
+    if topic is None:
+        overview(TOPICS)
+        return 0
+    key = topic.lower().replace("_", "-")
+    if key in TOPICS:
+        click.echo(TOPICS[key].text(), nl=False)
+        return 0
+    of_command(topic, TOPICS)
+    return 0
+
+
+def overview(topics: dict[str, Topic]) -> None:
+    """List the topics."""
+    formatter = click.HelpFormatter(max_width=100)
+    with formatter.section("Topics, `curvcli help TOPIC`"):
+        formatter.write_dl([(name, topic.summary) for name, topic in topics.items()])
+    click.echo(
+        formatter.getvalue() + "\nOptions of a command: `curvcli COMMAND --help`; one quantity: `curvcli passes NAME`."
+    )
+
+
+def of_command(name: str, topics: dict[str, Topic]) -> None:
+    """The help of a command.
+
+    Errors: click.UsageError for what is neither a topic nor a command, with the nearest.
+    """
+    from difflib import get_close_matches
+
+    from .main import COMMANDS, cli
+
+    context = click.get_current_context().find_root()
+    found = cli.get_command(context, name)
+    if found is None:
+        known = [*topics, *COMMANDS]
+        near = ", ".join(get_close_matches(name, known, 3, 0.4) or known)
+        raise click.UsageError(f"no topic or command is called {name!r}; nearest: {near}", click.get_current_context())
+    with click.Context(found, info_name=name, parent=context, max_content_width=100) as inner:
+        click.echo(found.get_help(inner))

@@ -1,0 +1,82 @@
+"""The JSON Schemas of everything that is written as JSON; `python -m curvcli.commands.schemas` writes the files again.
+
+The files in `curvcli/schemas` leave the names of columns open, for plug-ins bring their own; `--schema` prints them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+import msgspec
+
+from .._version import __version__
+from ..batch.model import Row
+from ..report.check import CheckReport
+from ..report.curves import CurveReport
+from ..report.differences import Comparison
+from ..report.maps import MapReport
+from ..report.model import Report, encode
+from ..report.model import schema as report_schema
+from ..report.quantities import Facts
+
+DRAFT = "https://json-schema.org/draft/2020-12/schema"
+FOLDER = Path(__file__).parent.parent / "schemas"
+
+
+@dataclass(frozen=True)
+class Described:
+    """command: what writes it. types: what it may be. full: the schema as printed, where the file knows less."""
+
+    command: str
+    types: tuple[Any, ...]
+    full: Callable[[], bytes] | None = None
+
+    def stored(self) -> bytes:
+        """The content of the file."""
+        alternatives, definitions = msgspec.json.schema_components(self.types)
+        for one in definitions.values():
+            for value in one.get("properties", {}).values():
+                if value.get("default") == __version__:
+                    del value["default"]  # a default only for who writes it
+        body = alternatives[0] if len(alternatives) == 1 else {"oneOf": list(alternatives)}
+        return encode({"$schema": DRAFT, "title": self.command, **body, "$defs": definitions})
+
+    def printed(self) -> bytes:
+        """What --schema prints."""
+        return self.full() if self.full is not None else self.stored()
+
+
+SCHEMAS: dict[str, Described] = {
+    "analyze": Described("curvcli analyze --json, -o FILE.json", (Report,), report_schema),
+    "check": Described("curvcli check --format json", (CheckReport,)),
+    "compare": Described("curvcli compare --json, also with --map", (Comparison, MapReport)),
+    "curves": Described("curvcli curves --json", (CurveReport,)),
+    "passes": Described("curvcli passes --json, a list; with NAME one of it", (list[Facts], Facts)),
+    "batch": Described("a line of manifest.jsonl, by curvcli batch", (Row,)),
+}
+
+
+def path_of(name: str) -> Path:
+    """The file of a schema."""
+    return FOLDER / f"{name}.schema.json"
+
+
+def write() -> None:
+    """Write every file again."""
+    FOLDER.mkdir(exist_ok=True)
+    for name, one in SCHEMAS.items():
+        path_of(name).write_bytes(one.stored())
+
+
+def say(name: str) -> None:
+    """Print one on stdout."""
+    click.echo(json.dumps(json.loads(SCHEMAS[name].printed()), indent=2, ensure_ascii=False))
+
+
+if __name__ == "__main__":
+    write()

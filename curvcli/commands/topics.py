@@ -1,0 +1,102 @@
+"""What `curvcli help` can tell: pages that come with the package, and those that the program makes of itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.resources import files
+
+from .main import EXIT_CODES
+
+
+@dataclass(frozen=True)
+class Topic:
+    """summary: one line for the list. text: makes the page, its first line is the title."""
+
+    summary: str
+    text: Callable[[], str]
+
+
+def _page(name: str) -> Callable[[], str]:
+    return lambda: files("curvcli").joinpath("topics", f"{name}.txt").read_text(encoding="utf-8")
+
+
+def _table(title: str, rows: list[tuple[str, str]]) -> str:
+    """A title and two columns; what does not fit goes on below its column."""
+    from textwrap import wrap
+
+    width = max(len(left) for left, _ in rows) + 2
+    lines = [f"# {title}", ""]
+    for left, right in rows:
+        first, *rest = wrap(right, 100 - width) or [""]
+        lines += [f"{left:{width}}{first}", *(" " * width + more for more in rest)]
+    return "\n".join(lines) + "\n"
+
+
+def _exit_codes() -> str:
+    note = "\nWith several inputs the worst decides, in the order 70, 4, 3, 1, 0. A closed pipe ends with 0.\n"
+    return _table("Exit codes", [(str(code), meaning) for code, meaning in EXIT_CODES.items()]) + note
+
+
+def _formats() -> str:
+    from ..loading.recognise import FORMATS as READ
+    from ..output.formats import FORMATS as WRITTEN
+
+    inputs = [(f".{suffix}", f"{suffix.upper()}, also .{suffix}.gz") for suffix in READ]
+    outputs = [(suffix, one.description) for suffix, one in WRITTEN.items()]
+    return (
+        _table("Formats that are read", inputs)
+        + "\n`-` reads a stream; --input-format says what it is.\n\n"
+        + _table("Formats that are written, by suffix (-o, --table)", outputs)
+        + "\n`-o -` writes to stdout; --format says what. Doubles are written by the shortest text that reads back to\n"
+        "the same number, unless --precision N. Schemas of JSON: `curvcli help schemas`.\n"
+    )
+
+
+def _checks() -> str:
+    from ..checks import rules
+    from ..pipeline import load_passes
+    from ..requirements import DEFAULT, kinds
+
+    load_passes()
+    identities = [(name, " ".join(rule.statement.split("\n\n")[0].split())) for name, rule in rules.items()]
+    required = [(one.usage + (" *" if one.name in DEFAULT else ""), one.statement) for one in kinds.values()]
+    return (
+        _table("Identities, which hold on every mesh up to rounding", identities)
+        + "\nA tolerance is a bound of the rounding error, not a constant of taste. A pass proves the arithmetic and\n"
+        "the counting; that the mesh is sound, or the one you meant, is what requirements are for.\n\n"
+        + _table("Requirements (check --require, --allow); * required by default", required)
+    )
+
+
+def _quantities() -> str:
+    from ..report.quantities import facts, public
+
+    rows = []
+    for quantity in public():
+        shown = facts(quantity)
+        rows.append((shown["name"], f"{shown['symbol']}: {shown['formula']} ({shown['on']}, {shown['kind']})"))
+    return _table("Quantities; `curvcli passes NAME` tells all about one", rows)
+
+
+def _schemas() -> str:
+    from .schemas import SCHEMAS
+
+    rows = [(name, one.command) for name, one in SCHEMAS.items()]
+    note = (
+        "\nThe files come with the package, in curvcli/schemas; --schema prints them with the names of all columns.\n"
+    )
+    return _table("JSON Schemas", rows) + note
+
+
+TOPICS: dict[str, Topic] = {
+    "conventions": Topic("signs, factors, units, what undefined means", _page("conventions")),
+    "quantities": Topic("every column in one line", _quantities),
+    "checks": Topic("identities and requirements, and what a pass proves", _checks),
+    "formats": Topic("files that are read and written", _formats),
+    "schemas": Topic("JSON Schemas of everything written as JSON", _schemas),
+    "regions": Topic("labels of faces", _page("regions")),
+    "configuration": Topic("curvcli.toml and pyproject.toml", _page("configuration")),
+    "exit-codes": Topic("what the exit code tells", _exit_codes),
+    "python": Topic("the same from Python", _page("python")),
+}
