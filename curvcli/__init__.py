@@ -9,12 +9,13 @@ Names are loaded when they are first used, so that importing the package costs n
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
 from ._version import __version__
 
+# Not typing's: it takes several times as long to import as all that is here, and Ctrl-C is not heard before.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from .analysis import Analysis, analyze
     from .declare import passes
     from .loading.surfaces import load
@@ -26,6 +27,8 @@ _HOME = {"Analysis": "analysis", "Surface": "surface", "analyze": "analysis", "l
 
 
 def __getattr__(name: str) -> Any:
+    from importlib import import_module
+
     if name == "passes":
         import_module(".pipeline", __name__).load_passes()
         return import_module(".declare", __name__).passes

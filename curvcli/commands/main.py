@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import sys
 import traceback
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
-from typing import NoReturn, cast
+from typing import Any, NoReturn, cast
 
 import click
 
@@ -15,7 +17,7 @@ from ..errors import CurvcliError, InputError, NoMatchError, OutputError, UsageE
 from ..memory import NUMPY, ran_out, require
 from .allocation import keep_memory
 from .config import META, blamed, configure
-from .signals import Ending
+from .signals import Ending, Handler
 from .streams import complete, refused, settle
 
 COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample", "help", "completion")
@@ -60,17 +62,30 @@ def worst(codes: list[int]) -> int:
     return min(codes, key=WORST_FIRST.index, default=OK)
 
 
+@contextmanager
+def _aborting() -> Iterator[None]:
+    """An interrupt is told once, without the blank line that click puts before it."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if sys.stderr.isatty():
+            click.echo(err=True)  # after the terminal's ^C
+        raise click.Abort from None
+
+
 class LazyGroup(click.Group):
     """A group whose commands are imported when they are named."""
 
+    def make_context(self, *arguments: Any, **settings: Any) -> click.Context:
+        """Read the options; interrupted as in `invoke`."""
+        with _aborting():
+            return super().make_context(*arguments, **settings)
+
     def invoke(self, ctx: click.Context) -> object:
-        """Run the command; an interrupt is told once, without the blank line that click puts before it."""
+        """Run the command."""
         try:
-            return super().invoke(ctx)
-        except KeyboardInterrupt:
-            if sys.stderr.isatty():
-                click.echo(err=True)  # after the terminal's ^C
-            raise click.Abort from None
+            with _aborting():
+                return super().invoke(ctx)
         except (click.UsageError, UsageError) as error:
             if META in ctx.meta:
                 raise blamed(ctx, error) from error
@@ -129,18 +144,24 @@ def cli(config: str | None) -> None:
     """
 
 
-def main() -> NoReturn:
-    """Run curvcli and exit with the code of the interface."""
+def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
+    """Run curvcli and exit with the code of the interface.
+
+    early: what has listened for Ctrl-C so far, and `heard` holds what it heard.
+    """
     # All our matrices are small: threads would only reserve memory, with many processors more than a limit allows.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     complete()
     ending = Ending()
-    ending.expect()
+    ending.expect(early)
     try:
-        result = cli.main(standalone_mode=False)
+        if heard:
+            raise KeyboardInterrupt
+        result = cli.main(complete_var=COMPLETE, standalone_mode=False)
         code = result if isinstance(result, int) else OK
         sys.stdout.flush()
     except BaseException as error:
+        ending.too_late()
         code = explain(error) if ending.number is None else interrupted(ending)
     ending.too_late()
     settle()

@@ -5,7 +5,10 @@ from __future__ import annotations
 import os
 import signal
 import time
+from collections.abc import Callable
 from types import FrameType
+
+Handler = Callable[[int, FrameType | None], None]
 
 # Ctrl-C, `kill` and `timeout`, a terminal that is closed; not all of them exist everywhere.
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
@@ -32,18 +35,23 @@ class Ending:
         """The exit code that shells give a process which a signal ended."""
         return 128 + (self.number or signal.SIGINT)
 
-    def expect(self) -> None:
-        """Listen, except to signals that the parent chose to have ignored, as nohup does."""
+    def expect(self, early: Handler | None = None) -> None:
+        """Listen, in the place of an earlier handler, but not to signals that the parent has ignored, as nohup does."""
         for number in _numbers():
-            if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
+            if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler, early or signal.SIG_DFL):
                 signal.signal(number, self._hear)
 
     def too_late(self) -> None:
         """The work is done: nothing can be interrupted any more, and Python may end in peace."""
-        for number in _numbers():
-            signal.signal(number, signal.SIG_IGN)
-        if self._delayed:
-            signal.setitimer(signal.ITIMER_REAL, 0)
+        while True:
+            try:
+                for number in _numbers():
+                    signal.signal(number, signal.SIG_IGN)
+                if self._delayed:
+                    signal.setitimer(signal.ITIMER_REAL, 0)
+                return
+            except KeyboardInterrupt:  # just in time
+                continue
 
     def _hear(self, number: int, frame: FrameType | None) -> None:
         if os.getpid() != self._process:  # a child that was forked and is not ours to unwind
