@@ -6,7 +6,7 @@ import hashlib
 import importlib
 import io
 import os
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any, BinaryIO
 
@@ -76,8 +76,9 @@ def _read(
         data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
         kind, notices = recognise(data, wanted)
         if len(data) > SMALL:
-            pool.submit(_import_polars, len(data))  # while trimesh is imported
-        mesh = _through_trimesh(data, kind, weld=weld, max_faces=max_faces)
+            pool.submit(_import_polars, len(data))
+        parsed = pool.submit(_parse, data, kind, weld, max_faces)  # while trimesh is imported
+        mesh = _through_trimesh(parsed, kind)
         check_faces(mesh.polygons, max_faces)
         merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
         return replace(mesh, sha256=digest.result(), weld=merged, notices=(*notices, *mesh.notices))
@@ -88,32 +89,46 @@ def _import_polars(data: int) -> None:
     importlib.import_module("polars")
 
 
-def _through_trimesh(data: bytes, kind: str, **options: Any) -> MeshFile:
-    """The mesh as trimesh hands it on. The stream has no name, so trimesh can resolve no reference to another file."""
+class _Parsed(io.BytesIO):
+    """A stream without bytes or name, so that trimesh can resolve no reference to another file; it knows the content."""
+
+    def __init__(self, content: Future[MeshFile]) -> None:
+        super().__init__()
+        self.content = content
+
+
+def _through_trimesh(parsed: Future[MeshFile], kind: str) -> MeshFile:
+    """The mesh as trimesh hands it on."""
     from trimesh.exchange.load import load_scene, mesh_loaders
 
     # A name of our own: importing curvcli changes nothing for other users of trimesh in this process.
     mesh_loaders.setdefault(_PREFIX + kind, _load)
-    scene = load_scene(io.BytesIO(data), file_type=_PREFIX + kind, process=False, **options)
+    scene = load_scene(_Parsed(parsed), file_type=_PREFIX + kind, process=False)
     (mesh,) = scene.geometry.values()
     content: MeshFile = mesh.metadata["curvcli"]
     return content
 
 
-def _load(file_obj: BinaryIO, file_type: str, weld: str | float, max_faces: int | None, **_: Any) -> dict[str, Any]:
+def _load(file_obj: _Parsed, **_: Any) -> dict[str, Any]:
     """A trimesh loader: the keyword arguments of a Trimesh, and the whole content of the file under its metadata."""
+    import numpy as np
+
+    # trimesh would turn corners into int64 and rows into columns; who wants a Trimesh builds it from the surface.
+    nothing = np.empty((0, 3))
+    return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": file_obj.content.result()}}
+
+
+def _parse(data: bytes, kind: str, weld: str | float, max_faces: int | None) -> MeshFile:
+    """The content of a file of a known kind, equal positions merged where that is asked for."""
     import numpy as np
 
     from .weld import welded
 
     with np.errstate(invalid="ignore"):  # signalling NaNs; who uses a NaN refuses it
-        mesh = welded(_parse(file_obj.read(), file_type.removeprefix(_PREFIX), weld, max_faces), weld)
-    # trimesh would turn corners into int64 and rows into columns; who wants a Trimesh builds it from the surface.
-    nothing = np.empty((0, 3))
-    return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": mesh}}
+        return welded(_content(data, kind, weld, max_faces), weld)
 
 
-def _parse(data: bytes, kind: str, weld: str | float, max_faces: int | None) -> MeshFile:
+def _content(data: bytes, kind: str, weld: str | float, max_faces: int | None) -> MeshFile:
     if kind == "obj":
         from .obj import parse_obj
 
