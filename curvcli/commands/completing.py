@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from copy import copy
 
 import click
 from click.shell_completion import CompletionItem
@@ -91,7 +92,9 @@ _FILES = ("MESH", "FILE", "PATH", "PATTERN", "LIST", "A", "B")
 
 
 def completing(command: click.Command) -> click.Command:
-    """The command with parameters that know what may stand there; the types of those it runs with stay plain text."""
+    """A copy of the command whose parameters know what may stand there; what it runs with stays plain text."""
+    command = copy(command)
+    command.params = [copy(param) for param in command.params]
     for param in command.params:
         if not isinstance(param.type, click.types.StringParamType) or param.name is None:
             continue
