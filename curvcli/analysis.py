@@ -134,9 +134,8 @@ class Analysis:
         return [name for name in self._closure if passes.quantity(name).kind == "flag"]
 
     def _applicable_rules(self) -> list[Any]:
-        """Checks whose needs the chosen passes meet; lengths of edges come for the asking."""
-        known = self._closure | {"edge_length"}
-        return [rule for rule in rules.values() if known.issuperset(rule.needs)]
+        """Checks whose needs the chosen passes meet."""
+        return [rule for rule in rules.values() if self._closure.issuperset(rule.needs)]
 
     # ------------------------------------------------------------------ columns
 

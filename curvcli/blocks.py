@@ -7,6 +7,7 @@ and `np.add.at` scatters; this is several times faster than the same formulas on
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,7 @@ from .compensated import cross_of_edges
 from .topology import Index, Mask
 
 if TYPE_CHECKING:
+    from .orientation import Sign
     from .surface import Surface
 
 Floats = NDArray[np.float64]
@@ -68,6 +70,13 @@ class Triangles:
     def no_angle(self, corner: int) -> Mask:
         """Faces that have no angle at a corner: it lies on another one, or the product of its edges is lost."""
         return np.maximum(np.abs(self.cosines[corner]), self.twice_area) < _SMALL_SQUARE
+
+    def half_perimeter(self) -> Floats:
+        """Half the sum of the lengths of the edges."""
+        a, b, c = self.cosines
+        # Rounding may turn the square of an edge that is short beside the others negative.
+        lengths: Floats = np.sqrt(np.abs(a + b)) + np.sqrt(np.abs(b + c)) + np.sqrt(np.abs(c + a))
+        return 0.5 * lengths
 
     def opposite(self, corner: int) -> Vector:
         """The edge opposite a corner, counterclockwise."""
@@ -150,44 +159,70 @@ class StarSums:
     area: Floats
     vector: Floats
     gradient: Floats
+    half_perimeters: Floats
     face_area: Floats
     degenerate_face: Mask
     coincident: Mask
 
 
 def star_sums(surface: Surface) -> StarSums:
-    """Angle sums, areas, vector areas and area gradients of all stars in one blocked sweep.
+    """Angle sums, areas, vector areas, area gradients and perimeters of all stars in one blocked sweep.
 
     Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The gradient
     of a triangle's area with respect to a corner is half the opposite edge turned within its plane, ½ ν × d.
     """
-    n, faces, sign = surface.n_vertices, surface.faces, surface.corner_sign
-    angle, area = np.zeros(n), np.zeros(n)
+    xyz, faces = surface.xyz, surface.faces
+    surface.corner_count  # noqa: B018  (both threads need it)
+    with ThreadPoolExecutor(1) as other:
+        # Sorting edges and gathering coordinates both wait for memory, and let go of the interpreter meanwhile.
+        signs = other.submit(lambda: surface.corner_sign)
+        sums = _sweep(xyz, faces)
+        sign = signs.result()
+    if sign is not None:
+        sums.vector[:] = _signed_vector_areas(surface, sign)
+    _resum_large_stars(surface, sums.angle_sum, sums.area, *sums.vector, *sums.gradient)
+    return sums
+
+
+def _sweep(xyz: Floats, faces: Index) -> StarSums:
+    """The star sums with every face as the file winds it."""
+    n, n_faces = xyz.shape[1], len(faces)
+    angle, area, half_perimeters = np.zeros(n), np.zeros(n), np.zeros(n)
     vector, gradient = np.zeros((3, n)), np.zeros((3, n))
-    face_area = np.empty(surface.n_faces)
-    degenerate = np.zeros(surface.n_faces, bool)
-    coincident = np.zeros(n, bool)
-    for block in face_blocks(surface.n_faces):
+    face_area = np.empty(n_faces)
+    degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
+    for block in face_blocks(n_faces):
         face = by_corner(faces[block])
-        t = triangles(surface.xyz, faces[block])
-        sixth = t.twice_area / 6
+        t = triangles(xyz, faces[block])
+        sixth, half_perimeter = t.twice_area / 6, t.half_perimeter()
         face_area[block] = t.twice_area / 2
         for corner, cosine in zip(face, t.cosines, strict=True):
             np.add.at(angle, corner, np.arctan2(t.twice_area, cosine))
             np.add.at(area, corner, sixth)
+            np.add.at(half_perimeters, corner, half_perimeter)
         if t.degenerate is not None:
             degenerate[block] = t.degenerate
             _mark_coincident(coincident, face, t)
         at_0, at_2 = _gradient_terms(t)
         for k in range(3):
             third = t.normal[k] / 6
-            for j, corner in enumerate(face):
-                np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
+            for corner in face:
+                np.add.at(vector[k], corner, third)
             np.add.at(gradient[k], face[0], at_0[k])
             np.add.at(gradient[k], face[1], -at_0[k] - at_2[k])
             np.add.at(gradient[k], face[2], at_2[k])
-    _resum_large_stars(surface, angle, area, *vector, *gradient)
-    return StarSums(angle, area, vector, gradient, face_area, degenerate, coincident)
+    return StarSums(angle, area, vector, gradient, half_perimeters, face_area, degenerate, coincident)
+
+
+def _signed_vector_areas(surface: Surface, sign: Sign) -> Floats:
+    """(3, V) vector areas of the stars where some face enters some star against its winding."""
+    vector = np.zeros((3, surface.n_vertices))
+    for block in face_blocks(surface.n_faces):
+        normal = triangles(surface.xyz, surface.faces[block]).normal
+        for row, component in zip(vector, normal, strict=True):
+            for corner, way in zip(by_corner(surface.faces[block]), sign[block].T, strict=True):
+                np.add.at(row, corner, component / 6 * way)
+    return vector
 
 
 def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:

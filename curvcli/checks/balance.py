@@ -34,11 +34,6 @@ def _boundary(surface: Surface, groups: Groups) -> tuple[Segments, VectorColumn,
     return boundary_segments(surface, groups, half_edges), midpoint, conormals(surface, half_edges)
 
 
-def _perimeters(surface: Surface, groups: Groups, edge_length: Column, weight: Floats | float = 1.0) -> Floats:
-    """Σ over each group's half-edges of their length: the size of the terms of which H_p is the sum."""
-    return groups.edges.sum(edge_length * surface.edges.valence * weight)
-
-
 def offsets(surface: Surface) -> VectorColumn:
     """(3, V) positions about the base; NaN at vertices that no face uses, which may lie anywhere."""
     with np.errstate(over="ignore", invalid="ignore"):
@@ -48,24 +43,24 @@ def offsets(surface: Surface) -> VectorColumn:
     return offset
 
 
-def _arms(surface: Surface) -> Floats:
-    """(E,) distance of each edge from the base, by its farther end."""
+def moments(surface: Surface, half_perimeters: Column) -> Column:
+    """(V,) the size of the terms of which p × H_p and p · ∇_p area are sums, times the distance from the base."""
     offset = offsets(surface)
-    distance = np.sqrt(dot(offset, offset))
-    return np.maximum(distance[surface.edges.a], distance[surface.edges.b])
+    size: Column = np.sqrt(dot(offset, offset)) * half_perimeters
+    return size
 
 
 @check(
     gap="ΣH_p − Ση|e|",
     applies="every surface, orientable or not; not where H_vec is undefined at a corner of a degenerate face",
-    bound="(16 + log₂N)ε · Σ over the corners of faces of the length of their edges",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter",
     failure="H_vec of some vertex is wrong, or an edge was taken for boundary that is not.",
 )
-def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_length: Column) -> Outcome:
+def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_perimeters: Column) -> Outcome:
     """Σ η|e| over the boundary = Σ H_p: translations change no area; needs no orientation."""
     segments, _, conormal = _boundary(surface, groups)
     value, expected = vector_sum(groups.vertices, H_vec), vector_sum(segments, conormal)
-    tolerance = rounding(surface, _perimeters(surface, groups, edge_length))
+    tolerance = rounding(surface, groups.vertices.sum(half_perimeters))
     outcome = Outcome(value, expected, tolerance, length_exponent=1, detail="Σ H_p against Σ η|e| over the boundary")
     exclude_null(outcome, groups, surface, np.isnan(H_vec[0]), "H_vec")
     return outcome
@@ -74,16 +69,16 @@ def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_le
 @check(
     gap="Σp × H_p − Σm × η|e|",
     applies="as force_balance",
-    bound="(16 + log₂N)ε · Σ edge length · distance from the base, over all faces at the edge",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter · distance from the base",
     failure="if force_balance passes: values of H_vec stand at the wrong vertices.",
 )
-def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_length: Column) -> Outcome:
+def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_perimeters: Column) -> Outcome:
     """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
     arm = offsets(surface)
     value = vector_sum(groups.vertices, cross(arm, H_vec))
     expected = vector_sum(segments, cross(midpoint, conormal))
-    tolerance = rounding(surface, _perimeters(surface, groups, edge_length, _arms(surface)))
+    tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
     # Taken about the base, where rounding is least, then moved to the origin.
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p × H_p against Σ m × η|e|")
     outcome.residual = np.sqrt(((value - expected) ** 2).sum(axis=1))
@@ -97,18 +92,18 @@ def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, edge_l
 @check(
     gap="Σp·H_p + 2 area − Σm·η|e|",
     applies="as force_balance",
-    bound="(16 + log₂N)ε · Σ edge length · distance from the base, over all faces at the edge",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter · distance from the base",
     failure="if force_balance passes: the area of a face is wrong, or values of H_vec stand at the wrong vertices.",
 )
 def position_balance(
-    surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, edge_length: Column
+    surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, half_perimeters: Column
 ) -> Outcome:
     """Σ m·η|e| over the boundary = Σ p·H_p + 2 area: scaling changes area by its square; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
     arm = offsets(surface)
     value = groups.vertices.sum(dot(arm, H_vec)) + 2 * groups.faces.sum(face_area)
     expected = segments.sum(dot(midpoint, conormal))
-    tolerance = rounding(surface, _perimeters(surface, groups, edge_length, _arms(surface)))
+    tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p·H_p + 2 area against Σ m·η|e|")
     outcome.residual = np.abs(value - expected)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -121,12 +116,12 @@ def position_balance(
 @check(
     gap="ΣA_p − ½Σ a × b",
     applies="orientable surfaces",
-    bound="(16 + log₂N)ε · (area + ½Σ|a||b| over the half-edges that do not cancel) + ε · Σ|e|² over the faces at "
-    "each edge",
+    bound="(16 + log₂N)ε · (area + ½Σ|a||b| over the half-edges that do not cancel) + ε · Σ(Σ half "
+    "perimeters)² over the stars",
     failure="A_vec of some vertex, or the orientation of some face, is wrong.",
 )
 def vector_area(
-    surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, edge_length: Column
+    surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, half_perimeters: Column
 ) -> Outcome:
     """½ Σ a × b over the oriented half-edges that do not cancel = Σ area ν; 0 on closed surfaces."""
     left = np.flatnonzero(surface.half_edge_sum)
@@ -139,7 +134,7 @@ def vector_area(
     expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)
     span = 0.5 * np.sqrt(dot(a, a)) * np.sqrt(dot(b, b)) * np.abs(times)
     # The area vector of a needle has the error of a product of its edges, to twice the digits.
-    needles = EPSILON * groups.edges.sum(edge_length**2 * surface.edges.valence)
+    needles = EPSILON * groups.vertices.sum(half_perimeters**2)
     outcome = Outcome(
         value,
         expected,

@@ -10,30 +10,27 @@ from ..declare import Column, VectorColumn
 from ..groups import Groups
 from ..surface import Surface
 from ..totals import volumes
-from .balance import offsets, vector_sum
+from .balance import moments, offsets, vector_sum
 from .base import Outcome, check, exclude_null, rounding
 
 
 @check(
     gap="Σp·∇_p area − 2 area",
     applies="not where area_gradient is undefined at a corner of a degenerate face",
-    bound="(16 + log₂N)ε · Σ edge length · distance from the base, over all faces at the edge; for the sum of "
-    "gradients without the distance",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter · distance from the base; for the "
+    "sum of gradients without the distance",
     failure="the gradient of area is wrong at some vertex; detail says whether its sum is not zero either.",
 )
 def area_gradient(
-    surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, edge_length: Column
+    surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, half_perimeters: Column
 ) -> Outcome:
     """Σ ∇_p area = 0 and Σ p·∇_p area = 2 area: area is invariant under translation and of degree two in scale."""
     arm = offsets(surface)
-    distance = np.sqrt(dot(arm, arm))
     value = groups.vertices.sum(dot(arm, area_gradient))
     expected = 2 * groups.faces.sum(face_area)
-    far = np.maximum(distance[surface.edges.a], distance[surface.edges.b])
-    perimeter = edge_length * surface.edges.valence
-    tolerance = rounding(surface, groups.edges.sum(perimeter * far))
+    tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
     drift = np.sqrt((vector_sum(groups.vertices, area_gradient) ** 2).sum(axis=1))
-    drift_tolerance = rounding(surface, groups.edges.sum(perimeter))
+    drift_tolerance = rounding(surface, groups.vertices.sum(half_perimeters))
 
     shown = [surface.in_file_unit(side, 1) for side in (drift, drift_tolerance)]
 

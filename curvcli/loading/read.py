@@ -90,7 +90,7 @@ def _import_polars(data: int) -> None:
 
 
 class _Parsed(io.BytesIO):
-    """A stream without bytes or name, so that trimesh can resolve no reference to another file; it knows the content."""
+    """The content behind a stream without bytes or name: trimesh can resolve no reference to another file."""
 
     def __init__(self, content: Future[MeshFile]) -> None:
         super().__init__()
