@@ -1,0 +1,106 @@
+"""The columns of a page: values, colours and their spread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...declare import Quantity, passes
+from ...loading.model import Labels
+from ...tables import vertex_table
+from ..colors import ColorScale, colorize
+
+if TYPE_CHECKING:
+    from ...analysis import Analysis
+    from ..write import Appearance
+
+_BINS = 60
+# Values without a colour of their own.
+_PLAIN = ("vertex", "x", "y", "z", "status", "welded_to")
+
+
+@dataclass(frozen=True)
+class Bar:
+    """One bar of a histogram in hundredths of its width and height, and its colour."""
+
+    left: float
+    width: float
+    height: float
+    color: str
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column with a value per vertex of the file, NaN where undefined, and the colours it is shown in."""
+
+    name: str
+    quantity: Quantity
+    unit: str
+    values: NDArray[np.float64]
+    scale: ColorScale
+    bars: list[Bar]
+    most: int
+
+    @property
+    def middle(self) -> float | None:
+        """The value in the middle of the colours."""
+        low, high = self.scale.low, self.scale.high
+        return None if low is None or high is None else low / 2 + high / 2
+
+
+def columns(analysis: Analysis, appearance: Appearance, colored: str | None) -> list[Column]:
+    """Every numeric column of the vertex table, in its order.
+
+    colored: the column that `--range LO:HI` speaks of; a percentage is for all.
+    """
+    boundary, referenced = analysis.surface.boundary, analysis.surface.referenced
+    known = {column: q for q in map(passes.quantity, analysis.chosen) if q.on == "vertex" for column in q.columns}
+    found = []
+    for name, given in vertex_table(analysis).items():
+        if name in _PLAIN or isinstance(given, Labels):
+            continue
+        quantity = known[name]
+        values = np.where(referenced & ~np.ma.getmaskarray(given), np.ma.getdata(given), np.nan).astype(np.float64)
+        shared = appearance.value_range is not None and ":" not in appearance.value_range
+        scale = colorize(
+            values,
+            cmap=appearance.cmap,
+            value_range=appearance.value_range if shared or name == colored else None,
+            signed=quantity.signed or quantity.vector,
+            ignore=boundary,
+        )
+        bars, most = histogram(values[referenced], scale)
+        unit = quantity.unit(analysis.conventions.unit)
+        found.append(Column(name, quantity, unit, values, scale, bars, most))
+    return found
+
+
+def histogram(values: NDArray[np.float64], scale: ColorScale) -> tuple[list[Bar], int]:
+    """Bars over the colours, one at each side for the values that the range cuts; and how many the tallest counts."""
+    low, high = scale.low, scale.high
+    if low is None or high is None:
+        return [], 0
+    inside = values[(values >= low) & (values <= high)]
+    half = high / 2 - low / 2
+    place = np.full(len(inside), 0.5) if half == 0 else np.clip((inside / 2 - low / 2) / half, 0, 1)
+    counts = np.bincount((place * _BINS).astype(np.int64).clip(0, _BINS - 1), minlength=_BINS)
+    below, above = int((values < low).sum()), int((values > high).sum())
+    most = max(int(counts.max()), below, above, 1)
+    steps = len(scale.gradient) - 1
+    # Room for the bars of what is cut: 3 % and a gap of 1 % at either side.
+    wide = 92 / _BINS
+    bars = [Bar(0, 3, 100 * below / most, hex_color(scale.gradient[0]))] if below else []
+    for k in np.flatnonzero(counts).tolist():
+        color = hex_color(scale.gradient[round((k + 0.5) / _BINS * steps)])
+        bars.append(Bar(round(4 + k * wide, 3), round(wide, 3), 100 * int(counts[k]) / most, color))
+    if above:
+        bars.append(Bar(97, 3, 100 * above / most, hex_color(scale.gradient[-1])))
+    return bars, most
+
+
+def hex_color(rgb: Any) -> str:
+    """A colour as the web writes it."""
+    return "#" + "".join(f"{int(part):02x}" for part in rgb)

@@ -1,0 +1,214 @@
+"""The page: the report and the surface through one template, within a bound on its size."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Callable
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+
+from ...checks.base import rules
+from ...errors import MissingExtraError
+from ...report.check import printable
+from ...report.model import model
+from ...report.proof import holds, proof
+from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
+from .columns import Column, columns, hex_color
+from .display import Display, simplified, whole
+from .engine import engine
+from .packing import differences, packed, scaled, steps
+
+if TYPE_CHECKING:
+    from ...analysis import Analysis
+    from ..write import Appearance
+
+# The page may have 15 MB; what is not the surface is well below 2.
+SURFACE_BYTES = 12_500_000
+# More cannot be told apart on a screen, and a telephone has to turn it.
+MOST_VERTICES = 200_000
+
+
+def require() -> None:
+    """Refuse before any work what cannot be written.
+
+    Errors: MissingExtraError.
+    """
+    if find_spec("jinja2") is None:
+        raise MissingExtraError("-o .html: needs Jinja; `pip install 'curvcli[page]'`")
+
+
+def page(analysis: Analysis, appearance: Appearance, colored: str | None, command: str | None) -> bytes:
+    """The page of an analysis. colored: the column that is shown first. command: what made it, for a shell.
+
+    Errors: MissingExtraError.
+    """
+    require()
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+    from markupsafe import Markup
+
+    def finalize(value: Any) -> Any:
+        return printable(value) if isinstance(value, str) and not hasattr(value, "__html__") else value
+
+    templates = Environment(
+        loader=PackageLoader("curvcli.output.html"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=finalize,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    templates.filters |= {"number": number, "hex": hex_color, "exact": _exact}
+    source: Callable[[str], str] = lambda name: templates.loader.get_source(templates, name)[0]  # type: ignore[union-attr]  # noqa: E731
+    shown = columns(analysis, appearance, colored)
+    display, blocks = _fitted(analysis, shown)
+    code = "".join(source(name) for name in ("data.js", "scene.js", "page.js"))
+    scripts = [engine(), f'(async () => {{\n"use strict";\n{code}}})();\n']
+    style = source("style.css")
+    report = model(analysis)
+    facts = msgspec.to_builtins(report)
+    text = templates.get_template("page.html").render(
+        report=facts,
+        title=report.input.path or "arrays in memory",
+        verdict=verdict(report),
+        holds=holds(report),
+        proof=proof(report),
+        shape=shape(report.topology),
+        conventions=conventions(report),
+        checks=listed(report.checks),
+        more_checks=len(report.checks) - len(listed(report.checks)),
+        results=RESULTS,
+        rules=rules,
+        most_rows=SHOWN_ROWS,
+        totals=_totals(),
+        columns=shown,
+        gradients={column.scale.cmap: column.scale.gradient for column in shown},
+        first=_first(shown, colored),
+        display=display,
+        surface=analysis.surface,
+        data=_data(analysis, display, shown, blocks.pop("meta")),
+        blocks={name: Markup(text) for name, text in blocks.items()},
+        command=command,
+        style=Markup(style),
+        scripts=[Markup(script) for script in scripts],
+        policy=_policy(style, scripts),
+    )
+    return text.encode("utf-8")
+
+
+def _first(shown: list[Column], colored: str | None) -> str | None:
+    names = [column.name for column in shown]
+    return colored if colored in names else next(iter(names), None)
+
+
+def _totals() -> dict[str, Any]:
+    """The quantity that each total sums."""
+    from ...declare import passes
+
+    return {quantity.total: quantity for quantity in passes.quantities(public=False) if quantity.total}
+
+
+def _policy(style: str, scripts: list[str]) -> str:
+    """What the page may do: run and look as written here, and nothing else; no address is ever asked.
+
+    Nothing here evaluates text, but programs that drive browsers wait for conditions by it.
+    """
+    allowed = " ".join([*map(_digest, scripts), "'unsafe-eval'"])
+    return (
+        f"default-src 'none'; script-src {allowed}; style-src {_digest(style)}; img-src data:; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def _digest(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode('utf-8')).digest()).decode('ascii')}'"
+
+
+def _exact(value: Any) -> str:
+    """A number for other programs: the shortest text that reads back to the same double, empty where undefined."""
+    if isinstance(value, list):
+        return " ".join(map(_exact, value))
+    return "" if value is None else repr(value) if isinstance(value, float) else str(value)
+
+
+def _fitted(analysis: Analysis, shown: list[Column]) -> tuple[Display, dict[str, Any]]:
+    """As much of the surface as the page can hold, and its blocks of data."""
+    surface = analysis.surface
+    # Deflated and in base64 a float takes about 4.4 bytes, the two faces of a vertex about 14.
+    per_vertex = 4.4 * (len(shown) + 3) + 22
+    most = min(MOST_VERTICES, int(SURFACE_BYTES / per_vertex))
+    used = int(np.count_nonzero(surface.referenced))
+    display = whole(surface) if used <= most and surface.n_faces <= 4 * most else simplified(surface, most)
+    while True:
+        blocks = _blocks(analysis, display, shown)
+        size = sum(len(text) for name, text in blocks.items() if name != "meta")
+        if size <= SURFACE_BYTES:
+            return display, blocks
+        most = int(min(most, len(display.vertices)) * 0.95 * SURFACE_BYTES / size)
+        display = simplified(surface, most)
+
+
+def _blocks(analysis: Analysis, display: Display, shown: list[Column]) -> dict[str, Any]:
+    """The data of the page by name; `meta` says how numbers are to be read."""
+    vertices = display.vertices
+    meta: dict[str, Any] = {"columns": {}}
+    axes = [scaled(axis[vertices]) for axis in analysis.surface.xyz_given]
+    meta["axes"] = [{"base": axis.base, "exponent": axis.exponent} for axis in axes]
+    found: dict[str, Any] = {
+        "positions": packed(np.stack([axis.values for axis in axes], axis=1)),
+        "vertices": packed(differences(vertices)),
+        "faces": packed(steps(display.faces)),
+        "boundary": packed(steps(display.boundary)),
+        "crowded": packed(steps(display.crowded)),
+        "normals": packed(_normals(analysis, display)),
+    }
+    if "status" in analysis.vertices:
+        codes = analysis.columns["status"][vertices].astype(np.uint8)
+        found["status"] = packed(codes)
+    for index, column in enumerate(shown):
+        numbers = scaled(column.values[vertices])
+        meta["columns"][column.name] = {"base": numbers.base, "exponent": numbers.exponent}
+        found[f"column-{index}"] = packed(numbers.values)
+    return {**found, "meta": meta}
+
+
+def _normals(analysis: Analysis, display: Display) -> Any:
+    """(n, 3) int8: unit normals of the full surface for its shading, 0 where it has none."""
+    normals = analysis.columns["star_vector"][:, display.vertices]
+    if not analysis.surface.orientable:
+        return np.zeros((len(display.vertices), 3), np.int8)
+    largest = np.abs(normals).max(axis=0)
+    unit = normals / np.where(largest > 0, largest, 1.0)
+    size = np.sqrt((unit * unit).sum(axis=0))
+    return np.nan_to_num(np.rint(127 * unit / np.where(size > 0, size, 1.0))).astype(np.int8).T
+
+
+def _data(analysis: Analysis, display: Display, shown: list[Column], meta: dict[str, Any]) -> dict[str, Any]:
+    """What the page's program has to know."""
+    from ...declare import passes
+
+    described = [
+        {
+            "name": column.name,
+            **meta["columns"][column.name],
+            "low": column.scale.low,
+            "high": column.scale.high,
+            "map": column.scale.cmap,
+            "undefined": [int(part) for part in column.scale.undefined],
+        }
+        for column in shown
+    ]
+    maps = {column.scale.cmap: packed(column.scale.gradient.ravel()) for column in shown}
+    labels = passes.quantity("status").labels if "status" in analysis.vertices else ()
+    return {
+        "columns": described,
+        "axes": meta["axes"],
+        "maps": maps,
+        "status": labels,
+        "vertices": len(display.vertices),
+        "of": analysis.surface.n_vertices,
+        "smooth": len(display.faces) > 5000,
+    }
