@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
+
+from .plurals import agree
 
 
 class CurvcliError(Exception):
@@ -52,3 +56,10 @@ class Notice:
     message: str
     hint: str | None = None
     examples: tuple[int, ...] = ()
+
+    @classmethod
+    def at(cls, code: str, indices: Sequence[Any] | Any, message: str, hint: str | None = None) -> Notice:
+        """A notice of what stands at these indices (an array will do); `[one|many]` in its words as there are many."""
+        count = len(indices)
+        some = tuple(int(index) for index in indices[:5])
+        return cls(code, count, agree(count, message), None if hint is None else agree(count, hint), some)

@@ -8,19 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .blocks import dot
 from .census import duplicate_faces, duplicate_vertices
 from .errors import Notice
 from .loading.weld import weld_exact
+from .plurals import agree, counted
 from .surface import Surface
 from .topology import find_edges
 
 # Rounding of the coordinates that moves K by more than this many radians is worth a warning: to doubles; and to
 # float32, which is what most files hold and what their users know, where it spoils K altogether.
 TRUSTED, TRUSTED_SINGLE = 1e-6, 0.5
-
-
-def _some(indices: NDArray[Any]) -> tuple[int, ...]:
-    return tuple(int(i) for i in indices[:5])
 
 
 def of_surface(surface: Surface, columns: Mapping[str, Any]) -> list[Notice]:
@@ -33,53 +31,46 @@ def out_of_range(lost: Mapping[str, int]) -> list[Notice]:
     names = [name for name, count in lost.items() if count]
     if not names:
         return []
-    message = f"results are beyond the range of doubles in the file's unit and left undefined: {', '.join(names)}"
+    count = sum(lost.values())
+    message = agree(count, "[result|results] beyond the range of doubles in the file's unit, left undefined: ")
     hint = "scale the mesh to an extent near 1: angles and energies stay, lengths and areas become numbers"
-    return [Notice("out_of_range", sum(lost.values()), message, hint)]
+    return [Notice("out_of_range", count, message + ", ".join(names), hint)]
 
 
 def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     yield from _not_a_manifold(surface)
     yield from _vertices_and_faces(surface, columns)
     yield from _winding(surface)
-    if "edge_length" in columns:
-        yield _coordinate_rounding(surface, columns["edge_length"])
+    if "half_perimeters" in columns:
+        yield from _coordinate_rounding(surface, columns)
     if "kappa_clamped" in columns:
-        clamped = np.flatnonzero(columns["kappa_clamped"])
-        yield Notice(
+        yield Notice.at(
             "clamped_radicand",
-            len(clamped),
-            "vertices with H² < 4K; their principal curvatures are taken equal",
-            hint="the mesh is coarse or rough there: no smooth surface has such curvatures",
-            examples=_some(clamped),
+            np.flatnonzero(columns["kappa_clamped"]),
+            "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
+            "the mesh is coarse or rough there: no smooth surface has such curvatures",
         )
     if "voronoi_unfinished" in columns:
-        unfinished = np.flatnonzero(columns["voronoi_unfinished"])
-        yield Notice(
+        yield Notice.at(
             "voronoi_unfinished",
-            len(unfinished),
-            "vertices whose Voronoi cell would take too many flips to find; it is left empty",
-            hint="--area mixed needs none; a mesh without long fans of thin triangles needs few",
-            examples=_some(unfinished),
+            np.flatnonzero(columns["voronoi_unfinished"]),
+            "[vertex|vertices] whose Voronoi cell would take too many flips to find; it is left empty",
+            "--area mixed needs none; a mesh without long fans of thin triangles needs few",
         )
 
 
 def _not_a_manifold(surface: Surface) -> Iterator[Notice]:
-    edges = np.flatnonzero(surface.nonmanifold_edges)
-    yield Notice(
+    yield Notice.at(
         "nonmanifold_edges",
-        len(edges),
-        "edges where more than two faces meet; densities at their ends are undefined",
-        hint="--table edges=PATH has them, with more than 2 in the column faces",
-        examples=_some(edges),
+        np.flatnonzero(surface.nonmanifold_edges),
+        "[edge|edges] where more than two faces meet; densities at [its|their] ends are undefined",
+        "--table edges=PATH has [it|them], with more than 2 in the column faces",
     )
-    vertices = np.flatnonzero(surface.split_stars)
-    yield Notice(
+    yield Notice.at(
         "nonmanifold_vertices",
-        len(vertices),
-        "vertices whose star is not one fan; densities there are undefined",
-        hint="give each fan a vertex of its own where parts only touch; weld where a seam cuts the surface",
-        examples=_some(vertices),
+        np.flatnonzero(surface.split_stars),
+        "[vertex|vertices] whose star is not one fan; densities there are undefined",
+        "give each fan a vertex of its own where parts only touch; weld where a seam cuts the surface",
     )
 
 
@@ -87,62 +78,68 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
     loose = ~surface.referenced
     if surface.file is not None and surface.file.welded_to is not None:
         loose &= surface.file.welded_to < 0  # merged rows have a notice of their own
-    unreferenced = np.flatnonzero(loose)
-    yield Notice(
+    yield Notice.at(
         "unreferenced_vertices",
-        len(unreferenced),
-        "vertices that no face uses; their rows are empty",
-        examples=_some(unreferenced),
+        np.flatnonzero(loose),
+        "[vertex|vertices] that no face uses; [its row is|their rows are] empty",
+        "nothing else depends on [it|them]; `curvcli check --require no-unreferenced` refuses such files",
     )
-    faces = np.flatnonzero(columns["degenerate_face"])
-    yield Notice(
+    yield Notice.at(
         "degenerate_faces",
-        len(faces),
-        "faces without area; the mean curvature is undefined at their corners",
-        hint="--weld exact drops those with two corners at one place; remesh the others",
-        examples=_some(faces),
+        np.flatnonzero(columns["degenerate_face"]),
+        "[face|faces] without area; the mean curvature is undefined at [its|their] corners",
+        "--weld exact drops those with two corners at one place; remesh the others",
     )
-    faces = duplicate_faces(surface)
-    yield Notice(
+    yield Notice.at(
         "duplicate_faces",
-        len(faces),
-        "faces with the same corners as an earlier one",
-        hint="remove them unless both sides are meant: each adds to area and angles",
-        examples=_some(faces),
+        duplicate_faces(surface),
+        "[face|faces] with the same corners as an earlier one",
+        "remove [it|them] unless both sides are meant: each adds to area and angles",
     )
     vertices = duplicate_vertices(surface)
-    yield Notice(
+    yield Notice.at(
         "duplicate_vertices",
-        len(vertices),
-        "vertices at exactly the position of an earlier one",
-        hint=welding(surface) if len(vertices) else None,
-        examples=_some(vertices),
+        vertices,
+        "[vertex|vertices] at exactly the position of an earlier one",
+        welding(surface) if len(vertices) else None,
     )
 
 
 def _winding(surface: Surface) -> Iterator[Notice]:
-    conflicts = np.flatnonzero(surface.winding_conflicts)
     flipped = surface.orientation.flipped
-    turned = f"{flipped} {'face was' if flipped == 1 else 'faces were'} turned for the computation"
-    yield Notice(
+    turned = f"; {counted(flipped, 'face')} {agree(flipped, '[was|were]')} turned for the computation"
+    yield Notice.at(
         "inconsistent_winding",
-        len(conflicts),
-        f"edges whose two faces run along them the same way; {turned}",
-        hint="nothing is lost: the lowest face of each patch decides",
-        examples=_some(conflicts),
+        np.flatnonzero(surface.winding_conflicts),
+        f"[edge|edges] whose two faces run along [it|them] the same way{turned if flipped else ''}",
+        "nothing is lost: the lowest face of each patch decides"
+        if flipped
+        else "no choice of sides puts [it|them] right: see not_orientable",
     )
-    without = int(np.count_nonzero(~surface.orientation.orientable))
-    yield Notice("not_orientable", without, "patches have no orientation; signed mean curvature is undefined there")
-    inside_out = np.flatnonzero(surface.inside_out)
+    yield Notice.at(
+        "not_orientable",
+        _first_faces(surface, ~surface.orientation.orientable),
+        "[patch|patches] without orientation, named by [its|their] lowest face; "
+        "signed mean curvature is undefined there",
+        "K, areas and H_vec need none; `curvcli check --require oriented` refuses such files",
+    )
     outward = surface.orient == "outward"
-    yield Notice(
+    yield Notice.at(
         "inside_out",
-        len(inside_out),
-        "closed patches were turned outwards"
+        _first_faces(surface, surface.inside_out),
+        "closed [patch|patches], named by [its|their] lowest face, turned outwards"
         if outward
-        else "closed patches have negative volume: their normals point inwards and signs are reversed",
-        hint=None if outward else "--orient outward turns them",
+        else "closed [patch|patches] of negative volume, named by [its|their] lowest face: [its|their] normals point "
+        "inwards and signs are reversed",
+        "--orient file keeps the sides that the file gives" if outward else "--orient outward turns [it|them]",
     )
+
+
+def _first_faces(surface: Surface, patches: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """The lowest face of each of these patches."""
+    if not patches.any():
+        return np.empty(0, np.intp)
+    return np.unique(surface.orientation.patch, return_index=True)[1][patches]
 
 
 def welding(surface: Surface) -> str:
@@ -170,28 +167,39 @@ def welding(surface: Surface) -> str:
     if open_now > open_then:
         closed = open_now - open_then
         all_of = "all " if closed == boundary > 1 else ""
-        words = f"--weld exact would close {all_of}{closed:,} boundary edge{'s' if closed > 1 else ''}"
+        words = f"--weld exact would close {all_of}{counted(closed, 'boundary edge')}"
     more = crowded_then - crowded_now
-    return (
-        f"{words}, and more than two faces would meet at {more:,} edge{'s' if more > 1 else ''}" if more > 0 else words
-    )
+    return f"{words}, and more than two faces would meet at {counted(more, 'edge')}" if more > 0 else words
 
 
-def _coordinate_rounding(surface: Surface, edge_length: NDArray[np.float64]) -> Notice:
+def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     """How much K may owe to the rounding of the coordinates, to doubles or to the float32 numbers they all are."""
+    shortest = max(last_place(surface) / TRUSTED, last_place(surface, np.float32) / TRUSTED_SINGLE)
+    if _edges_are_longer(columns, surface.faces, 2 * np.sqrt(3) * surface.degree.max() * shortest):
+        return
+    span = [x[surface.edges.b] - x[surface.edges.a] for x in surface.xyz]
+    edge_length = np.sqrt(dot(span, span))
     blurred = np.flatnonzero(rounding_of_K(surface, edge_length, last_place(surface), TRUSTED) > TRUSTED)
     what, bound = "coordinates", TRUSTED
     if not len(blurred) and _all_single(surface):
         place = last_place(surface, np.float32)
         blurred = np.flatnonzero(rounding_of_K(surface, edge_length, place, TRUSTED_SINGLE) > TRUSTED_SINGLE)
         what, bound = "coordinates, which are all float32 numbers,", TRUSTED_SINGLE
-    return Notice(
+    yield Notice.at(
         "coordinate_rounding",
-        len(blurred),
-        f"vertices where the rounding of the {what} alone may change K by more than {bound:g} radians",
-        hint=_more_digits(surface) if len(blurred) else None,
-        examples=_some(blurred),
+        blurred,
+        f"[vertex|vertices] where the rounding of the {what} alone may change K by more than {bound:g} radians",
+        _more_digits(surface) if len(blurred) else None,
     )
+
+
+def _edges_are_longer(columns: Mapping[str, Any], faces: NDArray[Any], length: float) -> bool:
+    """Whether every edge surely is, without a look at the edges: none is shorter than twice the area of its face by the
+    longest edge of that, which is less than what half the perimeters of the faces at a vertex add up to."""
+    area, half = columns["face_area"], columns["half_perimeters"]
+    if 2 * area.min() > length * np.nanmax(half):
+        return True
+    return bool((2 * area > length * half[faces[:, 0]]).all())
 
 
 def _more_digits(surface: Surface) -> str:

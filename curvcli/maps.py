@@ -13,6 +13,7 @@ from .checks.base import Check, CheckRule, Outcome, rounding
 from .cotangents import Dirichlet, dirichlet
 from .errors import InputError, Notice
 from .loading.surfaces import as_surface
+from .plurals import counted
 from .stretch import Stretch, stretch
 from .surface import Surface
 
@@ -150,7 +151,7 @@ class SurfaceMap:
         tolerance = rounding(self.source, np.array([terms]))
         outcome = Outcome(np.array([value]), np.array([expected]), tolerance, length_exponent=2, detail=detail)
         if len(self._degenerate):
-            some = f"{len(self._degenerate)} faces of the source are degenerate"
+            some = f"{counted(len(self._degenerate), 'face')} of the source without area"
             outcome.exclude(np.array([True]), f"{some}, the first is {self._degenerate[0]}")
         return CheckRule(name, lambda *_: outcome, (), detail).run(self.image, self.image.whole, {})[0]
 
@@ -159,10 +160,20 @@ class SurfaceMap:
         """Faces on which the map is undefined, and faces that it flattens."""
         collapsed = np.flatnonzero(self.stretch.collapsed)
         told = (
-            ("degenerate_source_faces", self._degenerate, "faces of the source have no area; f is undefined there"),
-            ("collapsed_faces", collapsed, "faces have an image without area"),
+            (
+                "degenerate_source_faces",
+                self._degenerate,
+                "[face|faces] of the source without area; f is undefined there",
+                "remesh A: where a face has no area nothing can be said of its image",
+            ),
+            (
+                "collapsed_faces",
+                collapsed,
+                "[face|faces] whose image has no area",
+                "f is not injective there: σ₂ is 0, and no angle is kept",
+            ),
         )
-        return [Notice(code, len(at), text, examples=tuple(at[:5].tolist())) for code, at, text in told if len(at)]
+        return [Notice.at(code, at, text, hint) for code, at, text, hint in told if len(at)]
 
     # ------------------------------------------------------------------ tables
 

@@ -134,6 +134,9 @@ def cut_apart(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
     return cut, by_label(cut, label, regions.count, "region", regions.names)
 
 
+_SLIPPED = "meant, or a label has slipped; --table faces=PATH has the region of every face"
+
+
 def findings(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
     """What often is a label that has slipped: regions in pieces, pinched or of a single face, faces without one."""
     pieces = np.zeros(groups.count, np.int64)
@@ -142,13 +145,23 @@ def findings(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
     pinched = census(cut, groups).nonmanifold_vertices > 0
     single = groups.faces.members() == 1
     found = [
-        ("regions_in_pieces", pieces > 1, "regions are not connected"),
-        ("regions_pinched", pinched, "regions touch themselves at a vertex"),
-        ("regions_of_one_face", single if not single.all() else ~single, "regions are a single face"),
-        ("faces_without_region", regions.face < 0, "faces have no region"),
+        ("regions_in_pieces", pieces > 1, "[region is|regions are] not connected", _SLIPPED),
+        ("regions_pinched", pinched, "[region touches itself|regions touch themselves] at a vertex", _SLIPPED),
+        (
+            "regions_of_one_face",
+            single if not single.all() else ~single,
+            "[region is|regions are] a single face",
+            _SLIPPED,
+        ),
+        (
+            "faces_without_region",
+            regions.face < 0,
+            "[face has|faces have] no region",
+            "no region's integrals count [it|them]",
+        ),
     ]
-    marked = [(code, np.flatnonzero(mask), message) for code, mask, message in found]
-    return [Notice(c, len(at), text, examples=tuple(map(int, at[:5]))) for c, at, text in marked if len(at)]
+    notices = [Notice.at(code, np.flatnonzero(mask), message, hint) for code, mask, message, hint in found]
+    return [notice for notice in notices if notice.count]
 
 
 def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions:

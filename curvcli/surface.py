@@ -23,6 +23,7 @@ from .orientation import (
     orient_stars,
     same_direction,
 )
+from .plurals import counted
 from .topology import (
     Edges,
     Index,
@@ -77,11 +78,11 @@ class Surface:
         if repeated.any():
             where = np.flatnonzero(repeated)
             self.notices.append(
-                Notice(
+                Notice.at(
                     "repeated_corner_faces",
-                    len(where),
-                    "faces with a repeated corner were dropped",
-                    examples=tuple(map(int, where[:5])),
+                    where if polygon is None else polygon[where],
+                    "[face|faces] with a repeated corner, dropped",
+                    "[it has|they have] no area; `curvcli check` refuses such files without --allow no-degenerate",
                 )
             )
             triangles = np.ascontiguousarray(triangles[~repeated])
@@ -106,7 +107,8 @@ class Surface:
             raise InputError(
                 f"coordinates ({at}) are not finite, expected finite numbers at every vertex that a face uses",
                 place=f"vertex {vertex}",
-                hint=f"{int(np.count_nonzero(used))} such vertices; remove their faces or repair them first",
+                hint=f"{counted(int(np.count_nonzero(used)), 'such vertex', 'such vertices')}; "
+                "remove the faces there or repair them first",
             )
 
     # ------------------------------------------------------------------ geometry

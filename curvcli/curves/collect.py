@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import InputError, Notice
 from ..loading.model import MeshFile
 from ..loading.surfaces import from_file
+from ..plurals import agree
 from ..surface import Surface
 from .boundary import Boundary
 from .loops import boundary_of
@@ -103,11 +104,23 @@ def _all(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: 
     yield from found.notices
     if found.boundary is not None:
         ends = np.flatnonzero(~found.boundary.closed)
-        message = "boundary curves end at edges with more than two faces"
-        yield Notice("open_boundary", len(ends), message, examples=tuple(ends[:5].tolist()))
-    message = "vertices of curves are equal to the next one; their rows are empty"
-    yield Notice("repeated_points", len(repeated), message, examples=tuple(repeated[:5].tolist()))
-    message = "vertices where a curve turns back on itself; frames and holonomy are undefined from there on"
-    yield Notice("reversals", len(reversed_), message, examples=tuple(reversed_[:5].tolist()))
-    message = f"curves are too large together for their writhe, a double sum over at most {limit} edges"
-    yield Notice("writhe_refused", refused, message, "--max-writhe sets the limit")
+        yield Notice.at(
+            "open_boundary",
+            ends,
+            "boundary [curve that ends|curves that end] at edges with more than two faces",
+            "`curvcli analyze --table edges=PATH` has these edges, with more than 2 in the column faces",
+        )
+    yield Notice.at(
+        "repeated_points",
+        repeated,
+        "[vertex of a curve|vertices of curves] at the place of the next one; [its row is|their rows are] empty",
+        "nothing is lost: an edge without length adds nothing",
+    )
+    yield Notice.at(
+        "reversals",
+        reversed_,
+        "[vertex|vertices] where a curve turns back on itself; frames and holonomy are undefined from there on",
+        "the binormal has no direction there: move the vertex by any little to give it one",
+    )
+    message = "[curve|curves] too large together for [its|their] writhe, a double sum over at most"
+    yield Notice("writhe_refused", refused, f"{agree(refused, message)} {limit} edges", "--max-writhe sets the limit")

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
+from ..plurals import agree
 from .limits import check_faces
 from .model import Labels, MeshFile
 from .obj_lines import ObjLines, split_lines, tidy_lines
@@ -50,9 +51,8 @@ def _read(lines: ObjLines, max_faces: int | None) -> MeshFile:
     if not keep.all():
         short = np.flatnonzero(~keep)
         place = lines.place(int(np.flatnonzero(is_f)[short[0]]))
-        hint = f"the first is in {place}"
-        message = "faces with fewer than 3 corners are dropped"
-        notices.append(Notice("short_faces", len(short), message, hint, tuple(short[:5].tolist())))
+        hint = f"the first is in {place}; `curvcli check` refuses such files without --allow no-degenerate"
+        notices.append(Notice.at("short_faces", short, "[face|faces] with fewer than 3 corners, dropped", hint))
         corners = corners[np.repeat(keep, sizes)]
         sizes = sizes[keep] if isinstance(sizes, np.ndarray) else 3
     if not len(corners) and not is_l.any():
@@ -102,10 +102,11 @@ def _statements(
     for code, found in counted.items():
         if found:
             words = ", ".join(f"`{_decode(word[:20])}`" for word in list(found)[:5])
-            what = "free-form, point and drawing" if code == "ignored_statements" else "unknown"
+            what = "free-form, point or drawing" if code == "ignored_statements" else "unknown"
             first = lines.place(min(where[0] for where in found.values()))
             total = sum(map(len, found.values()))
-            notices.append(Notice(code, total, f"{what} statements are ignored: {words}", f"the first is in {first}"))
+            message = f"{what} {agree(total, '[statement|statements]')}, ignored: {words}"
+            notices.append(Notice(code, total, message, f"the first is in {first}"))
     return {kind: (np.array(where, np.int64), names[kind]) for kind, where in at.items()}
 
 
@@ -150,8 +151,9 @@ def _vertices(
         weights = np.where(weighted, _column(records, 3), 1.0)
         rational = np.flatnonzero(weights != 1)
         if len(rational):
-            message = "rational weights `w` other than 1 are ignored"
-            notices.append(Notice("rational_weights", len(rational), message, None, tuple(rational[:5].tolist())))
+            message = "[vertex|vertices] with a rational weight `w` other than 1, which is ignored"
+            hint = "only free-form surfaces use weights; x, y and z are taken as they stand"
+            notices.append(Notice.at("rational_weights", rational, message, hint))
     return xyz, colours
 
 

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
+from ..plurals import agree
 from .limits import check_faces
 from .model import MeshFile
-from .ply_header import Element, Header, parse_header
+from .ply_header import TOO_SMALL, Element, Header, parse_header
 from .ply_rows import Columns, read_binary_rows
 from .ply_text import read_text_rows
 
@@ -54,7 +55,9 @@ def _read_binary(data: bytes, header: Header, notices: list[Notice]) -> dict[str
     for element in header.elements:
         content[element.name], offset = read_binary_rows(data, offset, element)
     if offset < len(data):
-        notices.append(Notice("trailing_data", len(data) - offset, "bytes after the announced elements are ignored"))
+        rest = len(data) - offset
+        message = agree(rest, "[byte|bytes] after the announced elements, ignored")
+        notices.append(Notice("trailing_data", rest, message, TOO_SMALL))
     return content
 
 
@@ -119,8 +122,14 @@ def _without_short(
     if keep.all():
         return corners, sizes, properties
     short = np.flatnonzero(~keep)
-    message = "faces with fewer than 3 corners are dropped"
-    notices.append(Notice("short_faces", len(short), message, None, tuple(short[:5].tolist())))
+    notices.append(
+        Notice.at(
+            "short_faces",
+            short,
+            "[face|faces] with fewer than 3 corners, dropped",
+            "[it has|they have] no area; `curvcli check` refuses such files without --allow no-degenerate",
+        )
+    )
     return corners[np.repeat(keep, sizes)], sizes[keep], {name: v[keep] for name, v in properties.items()}
 
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from .ply_header import Element, Header, Property
+from ..plurals import agree
+from .ply_header import TOO_SMALL, Element, Header, Property
 from .ply_rows import Columns, empty_columns
 from .text import (
     NEWLINE,
@@ -75,7 +76,8 @@ def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[n
             content[element.name] = empty_columns(element)
     if rest := body[starts[line] :].strip():
         count = sum(1 for text in rest.split(b"\n") if text.strip())
-        notices.append(Notice("trailing_data", count, "lines after the announced elements are ignored"))
+        message = agree(count, "[line|lines] after the announced elements, ignored")
+        notices.append(Notice("trailing_data", count, message, TOO_SMALL))
     return content
 
 
@@ -146,8 +148,9 @@ def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
         at = at + 1 + count
     extra = np.flatnonzero(at < ends)
     if len(extra):
-        message = f"rows of element `{rows.element.name}` hold more values than announced, which are ignored"
-        hint = f"the first is {rows.place(int(extra[0]))}"
+        rest = f"of element `{rows.element.name}` with more values than announced, which are ignored"
+        hint = f"the header lacks a property, or the file is damaged; the first is {rows.place(int(extra[0]))}"
+        message = f"{agree(len(extra), '[row|rows]')} {rest}"
         notices.append(Notice("extra_values", len(extra), message, hint, tuple(extra[:5].tolist())))
     return read
 

@@ -55,11 +55,24 @@ def _notices(sizes: NDArray[np.int32], concave: int, crossed: list[int]) -> tupl
     many = np.flatnonzero(sizes > 3)
     if not len(many):
         return ()
-    message = f"polygons are triangulated, {concave} of them not convex"
-    notices = [Notice("polygons_triangulated", len(many), message, None, tuple(many[:5].tolist()))]
+    notices = [
+        Notice.at(
+            "polygons_triangulated",
+            many,
+            f"[polygon|polygons] of more than 3 corners, triangulated; {concave} not convex",
+            "curvatures depend on the diagonals where a polygon is not flat: triangulate to choose them",
+        )
+    ]
     if crossed:
-        message = "polygons cross themselves, lie in no plane or are too intricate, and their triangles may overlap"
-        notices.append(Notice("polygons_not_simple", len(crossed), message, None, tuple(crossed[:5])))
+        notices.append(
+            Notice.at(
+                "polygons_not_simple",
+                crossed,
+                "[polygon that crosses itself, lies|polygons that cross themselves, lie] in no plane or "
+                "[is|are] too intricate; [its|their] triangles may overlap",
+                "triangulate where the mesh is made; --table faces=PATH shows the triangles of each polygon",
+            )
+        )
     return tuple(notices)
 
 

@@ -48,8 +48,8 @@ def recognise(data: bytes, wanted: str | None) -> tuple[str, tuple[Notice, ...]]
         return wanted, ()
     if wanted is None:
         return found, ()
-    message = f"the content is {found.upper()}, not {wanted.upper()} as its name says, and is read as such"
-    return found, (Notice("wrong_suffix", 1, message),)
+    message = f"file whose content is {found.upper()}, not {wanted.upper()} as its name says, and read as such"
+    return found, (Notice("wrong_suffix", 1, message, f"rename it to .{found}"),)
 
 
 def _bears_sign(data: bytes, kind: str) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
+from ..plurals import agree
 from .limits import check_faces
 from .model import MeshFile
 from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy
@@ -71,7 +72,8 @@ def _read_binary(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float32
     xyz = np.empty((3, 3 * count), np.float32)
     for k in range(3):
         xyz[k].reshape(-1, 3)[:] = facets["corners"][:, :, k]
-    trailing = Notice("trailing_data", -missing, "bytes after the announced facets are ignored")
+    message = agree(-missing, "[byte|bytes] after the announced facets, ignored")
+    trailing = Notice("trailing_data", -missing, message, "if the count at byte 80 is too small, facets are missing")
     return xyz, (trailing,) if missing < 0 else ()
 
 
@@ -121,13 +123,16 @@ def _read_lines(
     notices = []
     solids = int(np.count_nonzero(first == ord("s")))
     if solids > 1:
-        notices.append(Notice("several_solids", solids, "solids are read as one surface"))
+        hint = "`components` of the report keeps apart those that do not touch"
+        notices.append(Notice("several_solids", solids, "solids, read as one surface", hint))
     if not re.search(rb"(?:^|\n)endsolid[^\n]*\n*\Z", data[-65536:], re.IGNORECASE):
         hint = "if it was cut off, faces are missing"
-        notices.append(Notice("missing_endsolid", 1, "the text ends without `endsolid`", hint))
-    unknown = int(np.count_nonzero(~np.isin(statements, np.frombuffer(b"fove*", np.uint8))))
-    if unknown:
-        notices.append(Notice("unknown_statements", unknown, "unknown statements are ignored"))
+        notices.append(Notice("missing_endsolid", 1, "text that ends without `endsolid`", hint))
+    known = np.frombuffer(b"fove*s" + bytes([NEWLINE | 32]), np.uint8)
+    unknown = np.flatnonzero(~np.isin(first, known))
+    if len(unknown):
+        message = agree(len(unknown), "[statement|statements] that STL does not know, ignored")
+        notices.append(Notice("unknown_statements", len(unknown), message, f"the first is in {unit} {unknown[0] + 1}"))
     return np.ascontiguousarray(records.flat().reshape(-1, 3).T), tuple(notices)
 
 

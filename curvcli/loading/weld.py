@@ -31,8 +31,8 @@ def welded(mesh: MeshFile, weld: str | float) -> MeshFile:
         lowest = weld_within(mesh.xyz, float(weld))
     to = np.where(lowest == np.arange(len(lowest)), np.int32(-1), lowest)
     merged = np.flatnonzero(to >= 0)
-    message = "vertices are merged with an earlier one, whose row holds their values"
-    notice = Notice("welded_vertices", len(merged), message, None, tuple(merged[:5].tolist()))
+    message = "[vertex|vertices] merged with an earlier one, whose row holds the values"
+    notice = Notice.at("welded_vertices", merged, message, "--weld none keeps [it|them] apart")
     return replace(
         mesh,
         corners=lowest[mesh.corners],

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Notice
+from ..plurals import agree
 from .obj import write_obj
 from .ply import Polygons, write_ply
 from .stl import write_stl
@@ -30,11 +31,14 @@ def write_mesh(
     vertex_properties: Mapping[str, Column] | None = None,
     face_properties: Mapping[str, Column] | None = None,
     comments: Iterable[str] = (),
+    triangles: NDArray[np.integer[Any]] | None = None,
+    active: str | None = None,
 ) -> tuple[Notice, ...]:
-    """Write a mesh in the format of the suffix, each with what it can hold: `.ply` everything, `.obj` colours.
+    """Write a mesh in the format of the suffix, each with what it can hold: PLY and VTK everything, others colours.
 
     points (V, 3); faces (F, 3), or instead of them polygons: (corner indices one after the other, corners of each).
-    `.stl` holds the triangles alone. Returns what was lost without being asked.
+    triangles: (F, 3) for what holds nothing else, where they are not the faces. active: the property that `.vtp` and
+    `.vtu` are coloured by. `.stl` holds the triangles alone. Returns what was lost without being asked.
     """
     if suffix == ".ply":
         write_ply(
@@ -51,6 +55,26 @@ def write_mesh(
     if suffix == ".obj":
         write_obj(stream, points, faces, polygons=polygons, vertex_colors=vertex_colors, comments=comments)
         return ()
+    if suffix in (".vtp", ".vtu"):
+        from .vtk import write_vtk
+
+        write_vtk(
+            stream,
+            suffix,
+            points,
+            faces,
+            polygons=polygons,
+            vertex_colors=vertex_colors,
+            vertex_properties=vertex_properties,
+            face_properties=face_properties,
+            comments=comments,
+            active=active,
+        )
+        return ()
+    if suffix == ".glb":
+        from .glb import write_glb
+
+        return write_glb(stream, points, faces if triangles is None else triangles, vertex_colors)
     if suffix == ".stl":
         return write_stl(stream, points, faces)
     raise ValueError(f"{suffix}: no mesh is written with this suffix")
@@ -76,5 +100,5 @@ def beside_input(
     merged |= ours
     if not renamed:
         return merged, ()
-    message = f"{len(renamed)} properties of the input have names that are taken: {', '.join(renamed)}"
-    return merged, (Notice("renamed_properties", len(renamed), message),)
+    message = agree(len(renamed), "[property|properties] of the input with a name that is taken: ") + ", ".join(renamed)
+    return merged, (Notice("renamed_properties", len(renamed), message, "the values are kept under the new names"),)

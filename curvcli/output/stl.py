@@ -9,6 +9,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from ..errors import Notice, OutputError
+from ..plurals import agree
 from .text import blocks, lines, numbers, without
 
 _HEADER = b"binary STL written by curvcli".ljust(80, b" ")
@@ -42,7 +43,7 @@ def write_stl(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.i
     rounded = int((kept != used).any(axis=1).sum())
     if not rounded:
         return ()
-    message = f"{rounded} positions rounded to float32, the only precision binary STL has"
+    message = agree(rounded, "[position|positions] rounded to float32, the only precision binary STL has")
     return (Notice("stl_float32", rounded, message, hint="write .ply or .obj to keep every digit"),)
 
 

@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from ..plurals import counted
 from .model import CheckRow, Report, model
 from .proof import holds, proof
 
@@ -51,21 +52,17 @@ def _shape(report: Report) -> str:
     topology = report.topology
     parts = [f"V {topology.vertices:,}  E {topology.edges:,}  F {topology.faces:,}  χ {topology.euler_characteristic}"]
     words = [
-        "closed" if topology.closed else f"{topology.boundary_edges:,} boundary edges",
+        "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge"),
         "manifold" if topology.manifold else "not manifold",
         "orientable" if topology.orientable else "not orientable",
     ]
     if topology.components > 1:
-        words.insert(0, f"{topology.components:,} components")
-    for count, one, many in (
-        (topology.genus, "genus", "genus"),
-        (topology.crosscaps, "crosscap", "crosscaps"),
-        (topology.boundary_loops, "boundary loop", "boundary loops"),
-    ):
-        if one == "genus" and count is not None:
-            words.append(f"genus {count}")
-        elif count:
-            words.append(f"{count:,} {one if count == 1 else many}")
+        words.insert(0, counted(topology.components, "component"))
+    if topology.genus is not None:
+        words.append(f"genus {topology.genus}")
+    for count, name in ((topology.crosscaps, "crosscap"), (topology.boundary_loops, "boundary loop")):
+        if count:
+            words.append(counted(count, name))
     return "  ".join([*parts, ", ".join(words)])
 
 

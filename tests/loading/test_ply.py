@@ -160,7 +160,8 @@ def test_rows_with_more_values_than_announced_are_counted(small: int, monkeypatc
     mesh = parse_ply(ascii_ply("3 0 1 2 9 9\n3 0 2 3\n"))
     assert polygons(mesh) == [(0, 1, 2), (0, 2, 3)]
     (notice,) = mesh.notices
-    assert (notice.code, notice.count, notice.hint) == ("extra_values", 1, "the first is line 14")
+    assert (notice.code, notice.count) == ("extra_values", 1)
+    assert (notice.hint or "").endswith("; the first is line 14")
 
 
 def test_short_faces_and_trailing_data_are_counted() -> None:
