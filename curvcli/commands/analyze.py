@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -14,6 +14,7 @@ from . import options
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
+    from ..output.formats import Kind
     from ..output.write import Appearance
 
 
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
     "outputs",
     metavar="PATH",
     multiple=True,
-    help="Write .csv .tsv .parquet .npz (table), .ply .obj (coloured mesh) or .json (report); repeatable. "
+    help="Write .csv .tsv .parquet .npz (table), .ply .obj .vtp .vtu .glb (coloured mesh), .png (picture), "
+    ".hist.png (histograms) or .json (report); repeatable. "
     "With several meshes, {stem} stands for each one's name. `-` is stdout.",
 )
 @click.option(
@@ -42,9 +44,8 @@ if TYPE_CHECKING:
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of the report and stop.")
 @click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
-@click.option("--color-by", metavar="COLUMN", help="Column that colours the mesh.")
-@click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis.")
-@click.option("--range", "value_range", metavar="LO:HI|pNN", help="Ends of the colour map, or a central percentage.")
+@options.drawing
+@click.option("--quality", is_flag=True, help="Write the colouring column of .ply as `quality` too, as MeshLab wants.")
 @click.option(
     "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
 )
@@ -96,6 +97,12 @@ class Run:
         color_by: str | None,
         cmap: str | None,
         value_range: str | None,
+        view: str,
+        up: Literal["y", "z"],
+        size: str | None,
+        background: str,
+        edges_on: bool,
+        quality: bool,
         precision: str,
         input_format: str | None,
         max_faces: int | None,
@@ -103,6 +110,7 @@ class Run:
         **conventions: Any,
     ) -> None:
         from ..output.formats import format_of
+        from ..output.look import Look, parse_size
         from ..output.write import Appearance, check_appearance
         from ..pipeline import resolve
 
@@ -112,13 +120,18 @@ class Run:
         self.passes = resolve(passes or ("core",))
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
         self.stream_format = stream_format
-        self.appearance: Appearance = Appearance(color_by, cmap, value_range, precision)
-        check_appearance(self.appearance, self.passes)
+        look = Look(view, up, parse_size(size), background, edges_on)
+        columns = tuple(dict.fromkeys(name.strip() for name in (color_by or "").split(",") if name.strip()))
+        self.appearance: Appearance = Appearance(columns, cmap, value_range, precision, quality, look)
         kinds = [table_option(table) for table in tables]
         self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
         self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]
-        for path in self.paths[0]:
-            format_of(path, name=stream_format if path == "-" else None, kinds=("table", "mesh", "report"))
+        kinds_of_output: tuple[Kind, ...] = ("table", "mesh", "report", "picture")
+        formats = [
+            format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
+            for path in self.paths[0]
+        ]
+        check_appearance(self.appearance, self.passes, [one.suffix for one in formats])
         for kind, path in self.tables[0]:
             format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
             if kind == "regions" and conventions["regions"] is None:
@@ -181,9 +194,16 @@ class Run:
         if paths or tables:
             with phase(f"writing {mesh}", self.quiet):
                 analysis.extra_notices += write_into(
-                    outputs, analysis, paths, self.appearance, self.stream_format, tables
+                    outputs, analysis, paths, self.appearance, self.stream_format, tables, self.tell_of_picture
                 )
         return analysis
+
+    def tell_of_picture(self, line: str) -> None:
+        """What a picture leaves out, on stderr."""
+        from .main import say
+
+        if not self.quiet:
+            say(line)
 
     def tell(self, analysis: Analysis) -> Any:
         """What goes to stdout of one analysis; the report where it is wanted later."""

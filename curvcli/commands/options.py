@@ -101,6 +101,36 @@ def together(*options: Decorator) -> Decorator:
     return decorate
 
 
+drawing = together(
+    click.option(
+        "--color-by",
+        metavar="COLUMN[,COLUMN]",
+        help="Columns of pictures, a panel each, and of histograms; the first one colours a mesh.",
+    ),
+    click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis."),
+    click.option(
+        "--range", "value_range", metavar="LO:HI|pNN", help="Ends of the colour map, or a central percentage."
+    ),
+    click.option(
+        "--view",
+        metavar="iso|front|top|fit|AZ,EL",
+        default="iso",
+        show_default=True,
+        help="From where a picture is taken: azimuth and elevation in degrees; fit: where the surface is widest.",
+    ),
+    click.option(
+        "--up",
+        type=click.Choice(["y", "z"]),
+        default="z",
+        show_default=True,
+        help="The axis that a picture has upwards.",
+    ),
+    click.option("--size", metavar="WxH", help="Pixels of a picture.  [default: 1200x900, more for several panels]"),
+    click.option(
+        "--background", metavar="COLOR", default="white", show_default=True, help="Behind a picture: a name or #rrggbb."
+    ),
+    click.option("--edges-on", is_flag=True, help="Draw the edges of all faces in a picture."),
+)
 reading = together(area, mean, orient, weld, unit, input_format, max_faces, max_bytes)
 talking = together(quiet, verbose)
 

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     "outputs",
     metavar="PATH",
     multiple=True,
-    help="Write .obj .ply .stl (the mesh; .ply with its exact curvatures) or .csv .tsv .parquet .npz (their table); "
+    help="Write .obj .ply .stl .vtp .vtu .glb (the mesh; .ply .vtp .vtu with exact curvatures) or .csv .tsv .parquet "
+    ".npz (their table); "
     "repeatable.",
 )
 @click.option("--size", type=click.IntRange(4), help="Wanted number of vertices, about.")
@@ -102,14 +103,18 @@ def _write(
 def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool) -> None:
     import numpy as np
 
+    from ..output.formats import suffixes
+    from ..output.look import require_vtk
     from ..output.meshes import write_mesh
     from ..output.stl import write_stl_text
     from ..output.tables import write_table
     from .main import say
 
+    if suffix in (".vtp", ".vtu"):
+        require_vtk()
     if suffix == ".stl" and ascii_stl:
         write_stl_text(stream, made.points, made.faces)
-    elif suffix in (".ply", ".obj", ".stl"):
+    elif suffix in suffixes(("mesh", "triangles")):
         comments = [f"curvcli sample {made.name}: {made.description}"]
         for notice in write_mesh(
             stream, suffix, made.points, made.faces, vertex_properties=made.exact, comments=comments

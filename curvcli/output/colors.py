@@ -13,12 +13,22 @@ from numpy.typing import NDArray
 
 from ..errors import UsageError
 
-DIVERGING, SEQUENTIAL = "crameri:vik", "crameri:batlow"
+DIVERGING, SEQUENTIAL, CATEGORICAL = "crameri:vik", "crameri:batlow", "tol:light"
+CATEGORIES = 9
 # An odd number, so that 0 in a symmetric range has the middle colour; every second one is a map's own of 256.
 _STEPS = 511
 # For undefined values: mid grey, or what is as far from a map that holds greys itself.
 _UNDEFINED = ((128, 128, 128), (255, 0, 255), (0, 255, 0))
 _APART = 16
+
+
+@dataclass(frozen=True)
+class Category:
+    """A label with its colour and the number of vertices that have it."""
+
+    name: str
+    color: tuple[int, int, int]
+    count: int
 
 
 @dataclass(frozen=True)
@@ -28,6 +38,7 @@ class ColorScale:
     rgb: (V, 3) uint8. low, high: values at the ends of the map, None when no value is defined.
     gradient: (511, 3) uint8, the map from low to high. undefined: the colour of nulls, which is not in the map.
     clipped_below, clipped_above, nulls: how many values lie outside the range or are undefined.
+    signed: whether 0 is the middle of the map. categories: the labels that occur, of a column that has no numbers.
     """
 
     rgb: NDArray[np.uint8]
@@ -39,6 +50,8 @@ class ColorScale:
     clipped_below: int
     clipped_above: int
     nulls: int
+    signed: bool = False
+    categories: tuple[Category, ...] = ()
 
 
 def colorize(
@@ -69,7 +82,33 @@ def colorize(
         rgb[:] = np.take(gradient, _positions(values, low, high), axis=0)
         below, above = int((values < low).sum()), int((values > high).sum())
     rgb[nulls] = undefined
-    return ColorScale(rgb, low, high, name, gradient, undefined, below, above, int(nulls.sum()))
+    return ColorScale(rgb, low, high, name, gradient, undefined, below, above, int(nulls.sum()), signed)
+
+
+def categorize(codes: NDArray[np.integer[Any]], names: tuple[str, ...]) -> ColorScale:
+    """Colour labels, each with a colour of its own; beyond as many as the map has, colours repeat.
+
+    codes: (V,) places in `names`, negative for none.
+    """
+    gradient = _gradient(CATEGORICAL, CATEGORIES)
+    undefined = _undefined(gradient)
+    colors = np.concatenate([np.resize(gradient, (len(names), 3)), [undefined]]).astype(np.uint8)
+    found = np.where(codes < 0, len(names), codes)
+    counts = np.bincount(found, minlength=len(colors)).tolist()
+    listed = zip(names, colors.tolist(), counts, strict=False)
+    categories = tuple(Category(name, (rgb[0], rgb[1], rgb[2]), count) for name, rgb, count in listed if count)
+    return ColorScale(
+        np.take(colors, found, axis=0),
+        None,
+        None,
+        CATEGORICAL,
+        gradient,
+        undefined,
+        0,
+        0,
+        counts[-1],
+        categories=categories,
+    )
 
 
 def _positions(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.intp]:
@@ -136,7 +175,7 @@ def parse_range(value_range: str | None) -> tuple[float | None, float | None, fl
 
 
 @lru_cache(maxsize=8)
-def _gradient(name: str) -> NDArray[np.uint8]:
+def _gradient(name: str, steps: int = _STEPS) -> NDArray[np.uint8]:
     """The colours of a map by its name in the `cmap` catalogue; a trailing `_r` reverses it."""
     from cmap import Catalog, Colormap
 
@@ -150,7 +189,7 @@ def _gradient(name: str) -> NDArray[np.uint8]:
         near = difflib.get_close_matches(forward.lower(), names, n=4, cutoff=0.5)
         guess = f"; nearest are {', '.join(names[key] for key in near)}" if near else ""
         raise UsageError(f"--cmap {name}: no such colour map{guess}") from None
-    colors = (chosen if forward == plain else chosen.reversed()).lut(_STEPS)
+    colors = (chosen if forward == plain else chosen.reversed()).lut(steps)
     gradient: NDArray[np.uint8] = np.rint(colors[:, :3] * 255).astype(np.uint8)
     gradient.flags.writeable = False
     return gradient

@@ -31,8 +31,13 @@ FORMATS: dict[str, Format] = {
         Format(".npz", "table", "table, numpy arrays"),
         Format(".ply", "mesh", "mesh with every column as a property, binary"),
         Format(".obj", "mesh", "mesh with vertex colours, text"),
+        Format(".vtp", "mesh", "mesh with every column as an array, VTK polygons"),
+        Format(".vtu", "mesh", "mesh with every column as an array, VTK unstructured grid"),
+        Format(".glb", "mesh", "mesh with vertex colours, binary glTF, float32"),
         Format(".stl", "triangles", "triangles, binary, float32"),
         Format(".json", "report", "report, JSON"),
+        Format(".png", "picture", "picture of the coloured surface"),
+        Format(".hist.png", "picture", "histogram and area-weighted distribution of columns"),
     )
 }
 
@@ -48,7 +53,7 @@ def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | N
     Errors: UsageError for a suffix or a name that is not promised, with the list of those that are.
     """
     promised = suffixes(kinds)
-    given = name if name is not None else os.path.splitext(path)[1]
+    given = name if name is not None else _suffix(path)
     if name is None and path == "-":
         raise UsageError(f"-: a stream has no suffix; say --format with one of {_listed(promised, dot=False)}")
     suffix = "." + given.lower().lstrip(".")
@@ -59,6 +64,13 @@ def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | N
     near = difflib.get_close_matches(suffix, promised, n=1)
     guess = f"did you mean {near[0]}? " if near else ""
     raise UsageError(f"{where}: {problem}; {guess}known here are {_listed(promised, dot=name is None)}")
+
+
+def _suffix(path: str) -> str:
+    """The suffix of a path: the longest that is known, such as `.hist.png`, else what follows the last dot."""
+    stem, last = os.path.splitext(path)
+    both = os.path.splitext(stem)[1] + last
+    return both if both.lower() in FORMATS else last
 
 
 def _listed(promised: tuple[str, ...], *, dot: bool) -> str:

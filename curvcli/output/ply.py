@@ -157,15 +157,20 @@ def _scalar(name: str, column: Column, told: list[str]) -> NDArray[Any]:
 
 
 def _codes(name: str, labels: Labels, told: list[str]) -> NDArray[Any]:
+    few = len(labels.names) <= 255
+    told.append(meaning(_token(name), labels, 255 if few else -1))
+    missing = labels.codes < 0
+    return np.where(missing, 255, labels.codes).astype(np.uint8) if few else labels.codes.astype("<i4", copy=False)
+
+
+def meaning(name: str, labels: Labels, none: int) -> str:
+    """One line that says what the codes of a column stand for; none: the code of no label."""
     meanings = [f"{code} {' '.join(label.split())}" for code, label in enumerate(labels.names[:_NAMES_TOLD])]
     if len(labels.names) > _NAMES_TOLD:
         meanings.append(f"and {len(labels.names) - _NAMES_TOLD} more")
-    few = len(labels.names) <= 255
-    missing = labels.codes < 0
-    if missing.any():
-        meanings.append(f"{255 if few else -1} none")
-    told.append(f"{_token(name)}: " + ", ".join(meanings))
-    return np.where(missing, 255, labels.codes).astype(np.uint8) if few else labels.codes.astype("<i4", copy=False)
+    if (labels.codes < 0).any():
+        meanings.append(f"{none} none")
+    return f"{name}: " + ", ".join(meanings)
 
 
 def _token(name: str) -> str:

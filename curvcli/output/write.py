@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -15,10 +15,12 @@ from ..memory import require_polars
 from ..tables import TABLES, vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import format_of
+from .look import Look, check_look, parse_view, require_vtk
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
     from .colors import ColorScale
+    from .legend import Colored
 
 # What colours a mesh when nothing is asked for: the first of these that was computed.
 _COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
@@ -26,12 +28,18 @@ _COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
 
 @dataclass(frozen=True)
 class Appearance:
-    """How tables and coloured meshes look."""
+    """How tables, coloured meshes and pictures look.
 
-    color_by: str | None = None
+    color_by: the columns of a picture; the first of them colours a mesh. quality: whether `.ply` has that column once
+    more as `quality`, the name that MeshLab colours by.
+    """
+
+    color_by: tuple[str, ...] = ()
     cmap: str | None = None
     value_range: str | None = None
     precision: str | int = "shortest"
+    quality: bool = False
+    look: Look = field(default_factory=Look)
 
 
 def write_outputs(
@@ -59,10 +67,11 @@ def write_into(
     appearance: Appearance,
     stream_format: str | None = None,
     tables: Iterable[tuple[str, str]] = (),
+    tell: Callable[[str], None] = lambda line: None,
 ) -> list[Notice]:
-    """Write the vertex table, mesh or report that each path's suffix names into outputs that are open already.
+    """Write the vertex table, mesh, picture or report that each path's suffix names into outputs that are open already.
 
-    tables: pairs of a kind (`edges`, `faces`, …) and a path.
+    tables: pairs of a kind (`edges`, `faces`, …) and a path. tell: takes what a picture leaves out, a line at a time.
     """
     notices: list[Notice] = []
     require_polars(64 * analysis.surface.n_vertices)
@@ -81,6 +90,9 @@ def write_into(
                 write_table(stream, vertex_table(analysis), kind.suffix, precision=appearance.precision)
             elif kind.kind == "mesh":
                 notices += _write_mesh(stream, analysis, kind.suffix, appearance)
+            elif kind.kind == "picture":
+                for line in _write_picture(stream, analysis, kind.suffix, appearance):
+                    tell(f"{path}: {line}")
             else:
                 from ..report.model import encode, model
 
@@ -88,11 +100,18 @@ def write_into(
     return notices
 
 
-def check_appearance(appearance: Appearance, chosen: list[str]) -> None:
-    """Refuse, before any work, a colour column that will not be there, an unknown map, range or precision.
+def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterable[str] = ()) -> None:
+    """Refuse, before any work, a colour column that will not be there, an unknown map, range, view or precision.
 
-    Errors: UsageError.
+    suffixes: of the outputs, which may need libraries that are not installed.
+    Errors: UsageError, MissingExtraError.
     """
+    parse_view(appearance.look.view)
+    suffixes = set(suffixes)
+    if suffixes & {".png", ".hist.png"}:
+        check_look(appearance.look)
+    if suffixes & {".vtp", ".vtu"}:
+        require_vtk()
     if appearance.precision != "shortest":
         from .tables import parse_precision
 
@@ -101,27 +120,33 @@ def check_appearance(appearance: Appearance, chosen: list[str]) -> None:
         from .colors import colorize
 
         colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
-    if appearance.color_by is not None:
-        _colored_column(appearance.color_by, chosen)
+    for name in appearance.color_by:
+        _colored_column(name, chosen)
+
+
+def _columns(chosen: list[str]) -> dict[str, Quantity]:
+    """The vertex columns that were computed, each with its quantity."""
+    return {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
 
 
 def _colored_column(name: str, chosen: list[str]) -> Quantity:
     """The quantity whose column colours the mesh."""
-    columns = {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
-    if name not in columns or columns[name].labels:
-        known = ", ".join(column for column, quantity in columns.items() if not quantity.labels)
-        raise UsageError(f"--color-by {name}: no such column is computed, expected one of {known}; -p {name} adds it")
+    columns = _columns(chosen)
+    if name not in columns:
+        raise UsageError(
+            f"--color-by {name}: no such column is computed, expected one of {', '.join(columns)}; -p {name} adds it"
+        )
     return columns[name]
 
 
-def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale] | None:
-    """The column that colours the surface and its colours; None when no column was computed."""
-    from .colors import colorize
+def colored(analysis: Analysis, name: str, appearance: Appearance) -> Colored:
+    """A column with the colours that it has in every output."""
+    from .colors import categorize, colorize
+    from .legend import Colored
 
-    name = appearance.color_by or next((n for n in _COLOR_BY if n in analysis.chosen), None)
-    if name is None:
-        return None
     quantity = _colored_column(name, analysis.chosen)
+    if quantity.labels:
+        return Colored(name, quantity, categorize(analysis.columns[name], quantity.labels))
     values = np.where(analysis.surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
     scale = colorize(
         values,
@@ -130,17 +155,45 @@ def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale]
         signed=quantity.signed or quantity.vector,
         ignore=analysis.surface.boundary,
     )
-    return name, scale
+    return Colored(name, quantity, scale)
+
+
+def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale] | None:
+    """The column that colours the surface and its colours; None when no column was computed."""
+    chosen = appearance.color_by[:1] or tuple(name for name in _COLOR_BY if name in analysis.chosen)[:1]
+    return (chosen[0], colored(analysis, chosen[0], appearance).scale) if chosen else None
+
+
+def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[str]:
+    """Draw the surface or the histograms; what is to be said of each column, a line each."""
+    from .legend import sentence
+
+    if suffix == ".hist.png":
+        from .histogram import write_histograms
+
+        numbers = [name for name, q in _columns(analysis.chosen).items() if not q.vector and not q.labels]
+        shown = [colored(analysis, name, appearance) for name in appearance.color_by or numbers]
+        write_histograms(stream, analysis, shown, appearance.look, appearance.value_range)
+    else:
+        from .picture import write_picture
+
+        names = appearance.color_by or tuple(name for name in (*_COLOR_BY, "status") if name in analysis.chosen)[:1]
+        shown = [colored(analysis, name, appearance) for name in names]
+        write_picture(stream, analysis, shown, appearance.look, appearance.value_range)
+    return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in shown]
 
 
 def _write_mesh(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[Notice]:
     from .meshes import beside_input, write_mesh
 
     surface, file = analysis.surface, analysis.surface.file
-    colored = colors(analysis, appearance)
-    ours: Mapping[str, Any] = vertex_properties(analysis) if suffix == ".ply" else {}
-    inputs = file.vertex_properties if file is not None and suffix == ".ply" else {}
-    properties, notices = beside_input(ours, inputs, colored=colored is not None)
+    painted = colors(analysis, appearance)
+    full = suffix in (".ply", ".vtp", ".vtu")
+    ours: dict[str, Any] = vertex_properties(analysis) if full else {}
+    if suffix == ".ply" and appearance.quality and painted is not None:
+        ours["quality"] = ours[painted[0]]
+    inputs = file.vertex_properties if file is not None and full else {}
+    properties, notices = beside_input(ours, inputs, colored=painted is not None)
     polygons = None
     if file is not None and file.sizes is not None:
         polygons = (file.corners, file.sizes)
@@ -151,18 +204,20 @@ def _write_mesh(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: A
         surface.points,
         faces,
         polygons=polygons,
-        vertex_colors=None if colored is None else colored[1].rgb,
+        vertex_colors=None if painted is None else painted[1].rgb,
         vertex_properties=properties,
         face_properties=file.polygon_properties if file is not None else {},
-        comments=_comments(analysis, colored),
+        comments=_comments(analysis, painted),
+        triangles=surface.faces,
+        active=None if painted is None else painted[0],
     )
     return [*notices, *lost]
 
 
-def _comments(analysis: Analysis, colored: tuple[str, ColorScale] | None) -> list[str]:
+def _comments(analysis: Analysis, painted: tuple[str, ColorScale] | None) -> list[str]:
     convention = "k1 + k2" if analysis.conventions.mean == "sum" else "(k1 + k2) / 2"
     told = [f"curvcli: H = {convention}, positive where convex; NaN is undefined"]
-    if colored is not None and colored[1].low is not None:
-        name, scale = colored
+    if painted is not None and painted[1].low is not None:
+        name, scale = painted
         told.append(f"colour: {name} from {scale.low!r} to {scale.high!r}, {scale.cmap}")
     return told

@@ -1,0 +1,147 @@
+"""What a picture says of a column in words: its unit, the ends of its range, and what they cut."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..declare import CELL_AREA, Quantity
+from ..pipeline import schedule
+from .colors import ColorScale, parse_range
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+
+_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_BOLD = str.maketrans("", "", "*")
+
+
+@dataclass(frozen=True)
+class Colored:
+    """A column with its colours: what one panel of a picture shows."""
+
+    name: str
+    quantity: Quantity
+    scale: ColorScale
+
+    def unit(self, length: str | None) -> str:
+        """The unit with raised exponents, empty for a pure number or labels."""
+        exponent = self.quantity.length_exponent
+        if exponent == 0:
+            return ""
+        return (length or "length") + ("" if exponent == 1 else raised(exponent))
+
+    @property
+    def symbol(self) -> str:
+        """The symbol, empty where it is just the name."""
+        symbol = self.quantity.symbol.translate(_BOLD)
+        if self.quantity.vector:
+            symbol = f"{self.name[-1]} of {symbol}"
+        return "" if symbol == self.name else symbol
+
+
+def raised(number: int) -> str:
+    """An integer as an exponent."""
+    return str(number).translate(_RAISED)
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number for people, with a minus sign and a power of ten where it is large or small."""
+    text = f"{value:.{digits}g}"
+    mantissa, e, power = text.partition("e")
+    if e:
+        text = f"{mantissa}·10{raised(int(power))}"
+    return text.replace("-", "−")
+
+
+def range_words(value_range: str | None, signed: bool) -> str:
+    """How the ends of a colour map were chosen."""
+    low, _, central = parse_range(value_range)
+    if low is not None:
+        return "range as asked"
+    if signed:
+        return f"p{98 if central is None else central:g} of |values|"
+    share = 96 if central is None else central
+    return f"p{50 - share / 2:02g} to p{50 + share / 2:02g}"
+
+
+def cut_words(scale: ColorScale) -> str:
+    """How many values lie outside the range."""
+    if scale.low is None:
+        return "no value is defined"
+    parts = ((scale.clipped_below, "below"), (scale.clipped_above, "above"))
+    found = [f"{count:,} {where}" for count, where in parts if count]
+    return f"cuts {' and '.join(found)}" if found else "cuts nothing"
+
+
+def sentence(colored: Colored, value_range: str | None, length: str | None) -> str:
+    """One line for the terminal: the range of a column, how it was chosen, and what it leaves out."""
+    scale = colored.scale
+    if scale.categories:
+        return f"{colored.name}: " + ", ".join(f"{one.count:,} {one.name}" for one in scale.categories)
+    if scale.low is None or scale.high is None:
+        return f"{colored.name}: undefined at every vertex"
+    unit = colored.unit(length)
+    ends = f"{number(scale.low)} to {number(scale.high)}{' ' + unit if unit else ''}"
+    words = range_words(value_range, scale.signed)
+    undefined = f"; {scale.nulls:,} undefined" if scale.nulls else ""
+    return f"{colored.name}: colours from {ends} ({words}), {cut_words(scale)}{undefined}"
+
+
+def mesh_name(analysis: Analysis) -> str:
+    """The name of the mesh's file without its folder."""
+    file = analysis.surface.file
+    return os.path.basename(file.path) if file is not None and file.path not in (None, "-") else "mesh"
+
+
+def about(analysis: Analysis, columns: Sequence[Colored]) -> list[str]:
+    """The mesh, and the conventions that the columns shown depend on."""
+    surface = analysis.surface
+    shape = f"{mesh_name(analysis)}: {int(surface.referenced.sum()):,} vertices, {surface.n_faces:,} faces"
+    return [shape, *conventions(analysis, [one.quantity for one in columns])]
+
+
+def conventions(analysis: Analysis, quantities: list[Quantity]) -> list[str]:
+    """The choices that the columns shown depend on."""
+    chosen = analysis.conventions
+    told = []
+    if any(quantity.mean_degree for quantity in quantities):
+        told.append("H = κ₁ + κ₂" if chosen.mean == "sum" else "H = (κ₁ + κ₂)/2")
+    if any(quantity.signed and quantity.mean_degree for quantity in quantities):
+        told[-1] += ", positive where convex"
+    if any(_divided_by_area(quantity, chosen.area) for quantity in quantities):
+        told.append(f"area {chosen.area}")
+    if chosen.weld != "none":
+        told.append(f"weld {chosen.weld}")
+    return told
+
+
+def _divided_by_area(quantity: Quantity, area: str) -> bool:
+    """Whether it follows from the area that was chosen for `K_density`."""
+    return any(CELL_AREA in one.needs for one in schedule([quantity.name], area))
+
+
+def ticks(low: float, high: float, room: int) -> tuple[list[float], list[str], int]:
+    """Places and labels of at most `room` ticks from low to high, in units of 10 to the power that comes third."""
+    size = max(abs(low), abs(high))
+    if low == high:
+        return [low], [number(low, 6)], 0
+    if high / 2 - low / 2 < 1e-4 * size:
+        return [low, high], [number(low, 6), f"+{number(high - low, 2)}"], 0
+    power = 0 if 1e-2 <= size < 1e4 else max(-300, 3 * math.floor(math.log10(size) / 3))
+    first, last = low / 10.0**power, high / 10.0**power
+    step = _step((last - first) / max(1, room))
+    digits = next(d for d in range(20) if d == 19 or abs(round(step, d) - step) < 1e-9 * step)
+    count = range(math.ceil(first / step - 1e-9), math.floor(last / step + 1e-9) + 1)
+    places = [k * step for k in count]
+    labels = [f"{place:.{digits}f}".replace("-", "−") for place in places]
+    return [place * 10.0**power for place in places], labels, power
+
+
+def _step(least: float) -> float:
+    """The next of 1, 2, 2.5, 5 times a power of ten."""
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(power * factor for factor in (1, 2, 2.5, 5, 10) if power * factor >= least * (1 - 1e-9))

@@ -1,0 +1,68 @@
+"""What every panel of a picture or a sheet of histograms has: a title, a colour bar, a legend."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .legend import Colored, cut_words, number, raised, range_words, ticks
+from .sheet import Box, Color, Item, Sheet
+
+
+def draw_title(
+    sheet: Sheet, one: Colored, length: str | None, place: tuple[float, float], font: float, room: float
+) -> None:
+    """Name, symbol and unit of a column, as large as the room allows; the unit has the power of ten of the ticks."""
+    scale = one.scale
+    power = ticks(scale.low, scale.high, 5)[2] if scale.low is not None and scale.high is not None else 0
+    unit = " ".join(part for part in (f"10{raised(power)}" if power else "", one.unit(length)) if part)
+    rest = "  ".join(part for part in (one.symbol, f"[{unit}]" if unit else "") if part)
+    width, gap = sheet.measure(one.name, font, bold=True), 0.8 * font
+    size = font * min(1.0, room / (width + gap + sheet.measure(rest, font)))
+    sheet.text(*place, one.name, size, bold=True)
+    sheet.text(place[0] + (width + gap) * size / font, place[1], rest, size)
+
+
+def draw_bar(sheet: Sheet, one: Colored, box: Box, font: float) -> None:
+    """The colour bar with its ticks; a point at an end tells that values beyond it are cut."""
+    scale, (left, top, width, height) = one.scale, box
+    assert scale.low is not None
+    assert scale.high is not None
+    axes = sheet.axes(box)
+    spread = scale.high / 2 - scale.low / 2 > 0
+    colors = scale.gradient if spread else scale.gradient[len(scale.gradient) // 2][None]
+    axes.imshow(colors[None], aspect="auto", extent=(0, 1, 0, 1), interpolation="nearest")
+    places, labels, _ = ticks(scale.low, scale.high, max(2, int(width / (4.5 * font))))
+    at = [(place / 2 - scale.low / 2) / (scale.high / 2 - scale.low / 2) for place in places] if spread else [0.5]
+    axes.set_yticks([])
+    axes.set_xticks(at, labels, fontsize=0.85 * font * 0.72, color=sheet.pale, family="DejaVu Sans")
+    axes.tick_params(length=0.3 * font * 0.72, width=0.06 * font, color=sheet.pale, pad=0.2 * font * 0.72)
+    axes.set_xlim(0, 1)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    for cut, end, side, color in (
+        (scale.clipped_below, left, -1, scale.gradient[0]),
+        (scale.clipped_above, left + width, 1, scale.gradient[-1]),
+    ):
+        if cut:
+            tip = np.array([[end, top], [end, top + height], [end + side * 0.9 * height, top + height / 2]])
+            red, green, blue = color.tolist()
+            sheet.triangle(tip, shares((red, green, blue)))
+
+
+def legend(one: Colored, value_range: str | None) -> list[Item]:
+    """The range of a column and what it cuts, the undefined vertices, or the labels."""
+    scale = one.scale
+    if scale.categories:
+        return [Item(f"{c.name} {c.count:,}", "square", shares(c.color)) for c in scale.categories]
+    items = []
+    if scale.low is not None and scale.high is not None:
+        words = range_words(value_range, scale.signed)
+        items.append(Item(f"{number(scale.low)} to {number(scale.high)} ({words}), {cut_words(scale)}"))
+    if scale.nulls:
+        items.append(Item(f"undefined {scale.nulls:,}", "square", shares(scale.undefined)))
+    return items
+
+
+def shares(color: tuple[int, int, int]) -> Color:
+    """A colour of bytes as one from 0 to 1."""
+    return color[0] / 255, color[1] / 255, color[2] / 255

@@ -1,0 +1,143 @@
+"""VTK XML files, .vtp and .vtu: every column as an array, faces as loaded, written by VTK in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..loading.model import Labels
+from .ply import Polygons, meaning
+from .tables import Column
+
+_TRIANGLE, _POLYGON, _QUAD = 5, 7, 9
+_COLORS = "RGB"
+
+
+def write_vtk(
+    stream: BinaryIO,
+    suffix: str,
+    points: NDArray[np.float64],
+    faces: NDArray[np.integer[Any]],
+    *,
+    polygons: Polygons | None = None,
+    vertex_colors: NDArray[np.uint8] | None = None,
+    vertex_properties: Mapping[str, Column] | None = None,
+    face_properties: Mapping[str, Column] | None = None,
+    comments: Iterable[str] = (),
+    active: str | None = None,
+) -> None:
+    """Write a mesh as `.vtp` (polygons) or `.vtu` (unstructured grid) with float64 positions and arrays.
+
+    points (V, 3); faces (F, 3), or instead of them polygons: (corner indices one after the other, corners of each).
+    Properties become arrays of points and cells under their names, NaN for null; three that end in _x, _y, _z become
+    a vector array as well. Labels are codes, -1 for none, whose meaning stands in the comments of the XML: field arrays
+    of text would keep other readers from the file. The colours are the array RGB. active: the array that a viewer
+    colours by at first.
+    """
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
+
+    data, arrays = _mesh(suffix, faces, polygons)
+    told = [" ".join(comment.split()) for comment in comments]
+    at = vtkPoints()
+    at.SetData(_array(points, arrays))
+    data.SetPoints(at)
+    for properties, target in ((vertex_properties, data.GetPointData()), (face_properties, data.GetCellData())):
+        for name, column in (properties or {}).items():
+            _add(target, name, _values(name, column, told), arrays)
+        for stem in _vectors(properties or {}):
+            parts = [np.asarray((properties or {})[f"{stem}_{axis}"], np.float64) for axis in "xyz"]
+            _add(target, stem, np.stack(parts, axis=1), arrays)
+    if vertex_colors is not None:
+        _add(data.GetPointData(), _COLORS, vertex_colors, arrays)
+    if active is not None:
+        data.GetPointData().SetActiveScalars(active)
+    writer = vtkXMLPolyDataWriter() if suffix == ".vtp" else vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(data)
+    writer.SetWriteToOutputString(True)
+    # As they are: digits of curvatures hardly compress, and zlib takes longer than all the rest.
+    writer.SetHeaderTypeToUInt64()
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressorTypeToNone()
+    writer.Write()
+    output: Any = writer.GetOutputString()  # bytes, as the data are
+    content = memoryview(output)
+    # After the line with the root; offsets in the file count from the data, not from here.
+    start = output.index(b"\n") + 1
+    stream.write(content[:start])
+    stream.write(_comment(told))
+    stream.write(content[start:])
+
+
+def _mesh(suffix: str, faces: NDArray[np.integer[Any]], polygons: Polygons | None) -> tuple[Any, list[Any]]:
+    """The faces in a data set of VTK, and the arrays that must live as long as it."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
+
+    corners, sizes = polygons if polygons is not None else (faces.reshape(-1), np.full(len(faces), 3))
+    offsets = np.zeros(len(sizes) + 1, np.int64)
+    np.cumsum(sizes, out=offsets[1:])
+    flat = np.ascontiguousarray(corners.reshape(-1), np.int64)
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets), numpy_to_vtkIdTypeArray(flat))
+    if suffix == ".vtp":
+        data = vtkPolyData()
+        data.SetPolys(cells)
+        return data, [offsets, flat]
+    kinds = np.select([sizes == 3, sizes == 4], [_TRIANGLE, _QUAD], _POLYGON).astype(np.uint8)
+    grid = vtkUnstructuredGrid()
+    grid.SetCells(numpy_to_vtk(kinds), cells)
+    return grid, [offsets, flat, kinds]
+
+
+def _values(name: str, column: Column, told: list[str]) -> NDArray[Any]:
+    """A column as an array of one of VTK's types; what codes mean is added to what is told."""
+    if isinstance(column, Labels):
+        told.append(meaning(name, column, -1))
+        return column.codes.astype(np.int32 if len(column.names) > 127 else np.int8)
+    if isinstance(column, np.ma.MaskedArray):
+        return np.where(np.ma.getmaskarray(column), np.nan, np.ma.getdata(column)).astype(np.float64)
+    if column.dtype == np.bool_:
+        return column.view(np.uint8)
+    return column
+
+
+def _vectors(properties: Mapping[str, Column]) -> list[str]:
+    """Stems of three float columns that are the components of a vector and have no column of that name beside them."""
+    stems = [name[:-2] for name in properties if name.endswith("_x")]
+    return [
+        stem
+        for stem in stems
+        if stem and stem not in properties and all(_is_float(properties.get(f"{stem}_{axis}")) for axis in "xyz")
+    ]
+
+
+def _is_float(column: Column | None) -> bool:
+    return isinstance(column, np.ndarray) and column.dtype.kind == "f"
+
+
+def _array(values: NDArray[Any], arrays: list[Any]) -> Any:
+    """A VTK array over the memory of a numpy array, which is kept alive."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    values = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("="), copy=False))
+    arrays.append(values)
+    return numpy_to_vtk(values)
+
+
+def _add(target: Any, name: str, values: NDArray[Any], arrays: list[Any]) -> None:
+    array = _array(values, arrays)
+    array.SetName(name)
+    target.AddArray(array)
+
+
+def _comment(lines: list[str]) -> bytes:
+    """An XML comment, within which no two hyphens may meet."""
+    text = "\n".join(lines)
+    while "--" in text:
+        text = text.replace("--", "- -")
+    return f"<!--\n{text}\n-->\n".encode(errors="backslashreplace")
