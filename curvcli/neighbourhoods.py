@@ -6,14 +6,15 @@ Rows are made in blocks, so that memory stays bounded however large the mesh and
 from __future__ import annotations
 
 from collections.abc import Iterator
+from weakref import WeakKeyDictionary
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from .blocks import Floats, dot, face_blocks
 from .settings import Scale
 from .surface import Surface
+from .threads import for_each
 from .topology import Index, Mask
 
 # Entries that a block of rows may be expected to have.
@@ -25,6 +26,10 @@ _LARGEST_BLOCK = 1 << 25
 _USUAL, _ALWAYS = 64, 1 << 13
 
 Pattern = csr_array
+
+# Neighbourhoods that several passes look at are kept while they have no more entries than this (5 bytes each).
+_MOST_KEPT = 1 << 26
+_KEPT: WeakKeyDictionary[Surface, tuple[Scale, list[tuple[slice, Pattern]]]] = WeakKeyDictionary()
 
 
 def adjacency(surface: Surface) -> Pattern:
@@ -63,10 +68,29 @@ def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Patt
     are: a sheet that passes near is not mixed in. Columns within a row are in no order. Rows that would have thousands
     of vertices more than is usual at the scale, next to vertices of huge degree, are left empty.
     """
+    kept = _KEPT.get(surface)
+    if kept is not None and kept[0] == scale:
+        yield from kept[1]
+        return
+    _KEPT.pop(surface, None)
     grow = _Rings(surface, scale) if scale.kind == "rings" else _Balls(surface, scale)
-    rows = max(min(_ROWS_PER_BLOCK, _ENTRIES_PER_BLOCK // grow.expected), 1)
-    for block in face_blocks(surface.n_vertices, rows):
-        yield from _grown(grow, block)
+    size = max(min(_ROWS_PER_BLOCK, _ENTRIES_PER_BLOCK // grow.expected), 1)
+    entries, found = 0, []
+    for block in face_blocks(surface.n_vertices, size):
+        for place, rows in _grown(grow, block):
+            entries += rows.nnz
+            if entries <= _MOST_KEPT:
+                found.append((place, rows))
+            else:
+                found.clear()
+            yield place, rows
+    if entries <= _MOST_KEPT:
+        _KEPT[surface] = scale, found
+
+
+def forget(surface: Surface) -> None:
+    """Let go of the neighbourhoods that are kept of a surface."""
+    _KEPT.pop(surface, None)
 
 
 def _grown(grow: _Rings | _Balls, block: slice) -> Iterator[tuple[slice, Pattern]]:
@@ -171,9 +195,13 @@ def _within(surface: Surface, rows: Pattern, block: slice, radius: float) -> Pat
 
 def sums(surface: Surface, scale: Scale, data: Floats) -> Floats:
     """(V, k) sums over the neighbourhood of each vertex of data (V, k), which must be finite; 0 where it is empty."""
-    total: NDArray[np.float64] = np.zeros(data.shape)
-    for block, rows in neighbourhoods(surface, scale):
+    total = np.empty(data.shape)
+
+    def add(found: tuple[slice, Pattern]) -> None:
+        block, rows = found
         total[block] = as_weights(rows) @ data
+
+    for_each(neighbourhoods(surface, scale), add)
     return total
 
 

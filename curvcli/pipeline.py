@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from .declare import AT_SCALE, CELL_AREA, CELL_AREAS, NO_QUANTITIES, SURFACE, Pass, Quantity, passes
 from .errors import UsageError
+from .neighbourhoods import forget
 from .settings import DEFAULTS, Settings
 
 if TYPE_CHECKING:
@@ -123,6 +124,7 @@ def evaluate(
             same = {k: column for k, column in have.items() if AT_SCALE not in k and not passes.depends_on_scale(k)}
             found = _evaluate(surface, here, area, replace(settings, scales=(scale,)), same)
             have |= {name + suffix: found[name] for name in here}
+    forget(surface)
     return have
 
 

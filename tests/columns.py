@@ -47,7 +47,7 @@ def agree(quantity: Quantity, found: Array, wanted: Array, digits: float = 1e-11
     if not known.any():
         return
     largest = np.abs(wanted[known]).max()
-    if quantity.kind == "measure":
+    if quantity.kind == "measure" or (quantity.kind == "density" and passes.depends_on_scale(quantity.name)):
         largest = max(largest, length**quantity.length_exponent)
     tolerance = np.sqrt(digits) if quantity.name in HALF_THE_DIGITS else digits
     gap = np.abs(found - wanted)[known]

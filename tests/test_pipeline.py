@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.declare import passes
+from curvcli.declare import NO_QUANTITIES, passes
 from curvcli.errors import UsageError
 from curvcli.pipeline import CORE, ORDER, evaluate, resolve, schedule
 from tests import meshes
@@ -59,7 +59,7 @@ def test_only_what_is_needed_runs_and_each_after_its_needs(name: str) -> None:
     assert len(set(names)) == len(names)
     known: set[str] = set()
     for one in order:
-        required = {"A" if need == "cell_area" else need for need in one.needs} - {"surface"}
+        required = {"A" if need == "cell_area" else need for need in one.needs} - set(NO_QUANTITIES)
         assert required <= known
         known |= {quantity.name for quantity in one.provides}
     wanted = {need for one in order for need in one.needs} | {"A", name}

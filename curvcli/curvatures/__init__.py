@@ -17,4 +17,6 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     conformal,
     dirichlet,
     averaged,
+    vertex_normals,
+    corrected,
 )

@@ -35,7 +35,7 @@ def ring_sums(
     """Sums of the measures over each neighbourhood."""
     used = surface.interior & np.isfinite(K) & np.isfinite(H_vec).all(axis=0)
     data = np.where(used, [star_area, K, *H_vec, *A_vec], 0.0)
-    total = sums(surface, scale, np.ascontiguousarray(data.T)).T
+    total = sums(surface, scale, np.ascontiguousarray(data.T)).T.copy()
     return total[0], total[5:8], total[2:5], total[1]
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON, Floats, cross, dot, face_blocks
+from ..blocks import EPSILON, Floats, dot, face_blocks
 from ..declare import Column, Quantity, VectorColumn, curvature_pass
 from ..surface import Surface
 from .mean import LOST
+from .tensor import ENTRIES, line, tangential
 
 _SHARED = {
     "kind": "direction",
@@ -19,11 +20,6 @@ _SHARED = {
 }
 # Eigenvalues nearer to each other than this part of Σ|e| differ by the rounding of the dihedral angles only.
 _UMBILIC = 512 * EPSILON
-# Components of a direction are equally large to rounding.
-_EQUAL = 1 - 64 * EPSILON
-# The six entries of a symmetric 3 × 3 matrix.
-_ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-_WHERE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 
 
 @curvature_pass(
@@ -54,7 +50,7 @@ def principal_directions(
     An edge bends the surface across itself, so the direction of κ₁ belongs to the smaller eigenvalue: on a cylinder it
     goes round, not along. Lines rather than vectors: the first of their largest components (to rounding) is positive.
     """
-    tensor, size = _tensors(surface, theta)
+    tensor, size = star_tensors(surface, theta)
     frames = np.full((2, 3, surface.n_vertices), np.nan)
     usable = np.sqrt(dot(A_vec, A_vec)) >= LOST * star_area
     usable &= surface.interior & (star_area > 0)
@@ -64,7 +60,7 @@ def principal_directions(
     return frames[0], frames[1]
 
 
-def _tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
+def star_tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
     """(6, V) Σ θ_e |e| ê⊗ê over the edges at each vertex, and (V,) Σ |e|, to which its rounding is proportional."""
     a, b = surface.edges.a, surface.edges.b
     tensor, size = np.zeros((6, surface.n_vertices)), np.zeros(surface.n_vertices)
@@ -76,7 +72,7 @@ def _tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
         with np.errstate(divide="ignore", invalid="ignore"):
             along = np.array(span) / length
         for total, part in (
-            *((tensor[k], bend * along[i] * along[j]) for k, (i, j) in enumerate(_ENTRIES)),
+            *((tensor[k], bend * along[i] * along[j]) for k, (i, j) in enumerate(ENTRIES)),
             (size, length),
         ):
             for end in ends:
@@ -87,29 +83,8 @@ def _tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
 def _tangential(tensor: Floats, size: Floats, normal: VectorColumn) -> Floats:
     """(2, 3, n) unit eigenvectors of the tensor's part orthogonal to the normal, the smaller eigenvalue first."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        normal = normal / np.sqrt(dot(normal, normal))
-        # A frame without branches in its formula (Duff et al.): u = e_x and v = e_y where the normal is ±e_z.
-        side = np.copysign(1.0, normal[2])
-        slant = -1 / (side + normal[2])
-        mixed = normal[0] * normal[1] * slant
-        u = np.array([1 + side * normal[0] ** 2 * slant, side * mixed, -side * normal[0]])
-        v = np.array([mixed, side + normal[1] ** 2 * slant, -normal[1]])
-        image_u, image_v = ([dot(tensor[row], w) for row in _WHERE] for w in (u, v))
-        half, off = 0.5 * (dot(u, image_u) - dot(v, image_v)), dot(u, image_v)
-        # Turned by half the angle of (half, off), u goes to the eigenvector of the larger eigenvalue.
-        turn = 0.5 * np.arctan2(off, half)
-        larger = np.cos(turn) * u + np.sin(turn) * v
-        smaller = np.array(cross(normal, larger))
-        umbilic = np.hypot(half, off) <= _UMBILIC * size
-    pair = np.array([_signed(smaller), _signed(larger)])
+        _, half, larger, smaller = tangential(tensor, normal / np.sqrt(dot(normal, normal)))
+        umbilic = half <= _UMBILIC * size
+    pair = np.array([line(smaller), line(larger)])
     pair[:, :, umbilic] = np.nan
     return pair
-
-
-def _signed(vector: VectorColumn) -> VectorColumn:
-    """The vector or its opposite: the first component that is largest, to rounding, is made positive."""
-    size = np.abs(vector)
-    largest = (size >= _EQUAL * size.max(axis=0)).argmax(axis=0)
-    leading = np.take_along_axis(vector, largest[None], axis=0)
-    signed: VectorColumn = np.copysign(1.0, leading) * vector
-    return signed

@@ -31,6 +31,7 @@ class MeshFile:
     welded_to: (V,) the row that holds the values of a merged row, -1 for one that holds its own; None without welding.
     path, sha256: where the bytes came from (`-` for a stream) and their hash, None for arrays made in memory.
     weld: how vertices were merged: `none`, `exact` or a tolerance.
+    corner_normals: (3, V) sums of the unit normals that an OBJ file gives at the corners there, if they were asked for.
     notices: what was accepted but should be said.
     """
 
@@ -46,7 +47,16 @@ class MeshFile:
     path: str | None = None
     sha256: str | None = None
     weld: str = "none"
+    corner_normals: NDArray[np.float64] | None = None
     notices: tuple[Notice, ...] = ()
+
+    @property
+    def vertex_normals(self) -> NDArray[np.float64] | None:
+        """(3, V) the file's normals at its vertices, of any length; NaN where it gives none, None if it has none."""
+        if self.corner_normals is not None:
+            return self.corner_normals
+        axes = [self.vertex_properties.get(name) for name in ("nx", "ny", "nz")]
+        return None if any(axis is None for axis in axes) else np.array(axes, np.float64)
 
     @property
     def polygons(self) -> int:

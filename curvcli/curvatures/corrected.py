@@ -1,0 +1,214 @@
+"""Interpolated corrected curvatures: measures of the triangles with normals interpolated between their vertices."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from ..blocks import EPSILON, Floats, by_corner, cross, dot, face_blocks
+from ..declare import Column, Quantity, VectorColumn, curvature_pass
+from ..neighbourhoods import sums
+from ..settings import Scale
+from ..surface import Surface
+from ..threads import for_each
+from ..topology import Index
+from .tensor import ENTRIES, line, tangential
+
+# Below this part of the area the normals do not belong to the faces, and what is divided by Σμ₀ means nothing.
+_ASTRAY = 0.25
+# Eigenvalues nearer to each other than this part of their size differ by rounding only.
+_UMBILIC = 512 * EPSILON
+# Rows of the vertex measures.
+_MU_0, _AREA, _MU_2, _TENSOR = 0, 1, 2, slice(3, 9)
+
+_SHARED: dict[str, Any] = {
+    "boundary": "one-sided: the faces that there are; null at vertices of status nonmanifold, and where Σμ₀ is less "
+    "than a quarter of the area: there the normals do not belong to the faces",
+    "source": "Lachaud, Romon, Thibert and Coeurjolly, Interpolated corrected curvature measures for polygonal "
+    "surfaces, 2020; Lachaud, Romon and Thibert, Corrected curvature measures, 2022",
+    "preserves": "exact on spheres, and wherever the normals are those of a surface of constant curvatures",
+}
+
+
+def _quantity(name: str, symbol: str, formula: str, description: str, **fields: Any) -> Quantity:
+    return Quantity(name, symbol=symbol, formula=formula, description=description, **_SHARED, **fields)
+
+
+_DENSITY: dict[str, Any] = {"kind": "density", "length_exponent": -1, "parity": "odd", "signed": True}
+_LINE: dict[str, Any] = {"kind": "direction", "vector": True}
+
+
+@curvature_pass(
+    provides=(
+        _quantity(
+            "K_corrected",
+            "K̂",
+            "Σμ₂/Σμ₀ over the neighbourhood, μ₀ = ½⟨ū, d₁ × d₂⟩, μ₂ = ½⟨u₀, u₁ × u₂⟩; sharpened",
+            "Gauss curvature estimated from interpolated normals at the scale of --rings or --radius.",
+            kind="density",
+            length_exponent=-2,
+            signed=True,
+        ),
+        _quantity(
+            "h_corrected",
+            "Ĥ",
+            "Σμ₁/Σμ₀, μ₁ = ½⟨ū, e₁ × d₂ + d₁ × e₂⟩, d and e the differences of positions and of normals; sharpened",
+            "Mean curvature κ₁ + κ₂ estimated from interpolated normals, positive where convex.",
+            mean_degree=1,
+            **_DENSITY,
+        ),
+        _quantity(
+            "kappa_1_corrected",
+            "κ̂₁",
+            "Ĥ/2 + half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
+            "Larger principal curvature estimated from interpolated normals.",
+            partner="kappa_2_corrected",
+            **_DENSITY,
+        ),
+        _quantity(
+            "kappa_2_corrected",
+            "κ̂₂",
+            "Ĥ/2 − half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
+            "Smaller principal curvature estimated from interpolated normals.",
+            partner="kappa_1_corrected",
+            **_DENSITY,
+        ),
+        _quantity(
+            "dir_1_corrected",
+            "**ê**₁",
+            "tangential eigenvector of Σμ_XY to the larger eigenvalue",
+            "Direction of kappa_1_corrected, a line; null also at umbilics.",
+            partner="dir_2_corrected",
+            **_LINE,
+        ),
+        _quantity(
+            "dir_2_corrected",
+            "**ê**₂",
+            "tangential eigenvector of Σμ_XY to the smaller eigenvalue",
+            "Direction of kappa_2_corrected, a line; null also at umbilics.",
+            partner="dir_1_corrected",
+            **_LINE,
+        ),
+    )
+)
+def corrected_curvatures(surface: Surface, scale: Scale, fitted_normal: VectorColumn) -> tuple[Column, ...]:
+    """Curvature measures of the triangles with their normals interpolated, divided by the measure of area.
+
+    Each face's measures go to its corners in equal parts and are summed over neighbourhoods. What an average over a
+    neighbourhood takes off the peaks is estimated by averaging once more, and given back (sharpened): x̂ = 2 x̄ − x̿.
+    """
+    normal = np.where(surface.nonmanifold, np.nan, fitted_normal)
+    corners = _Corners(surface)
+    measures = _measures(surface, normal)
+    mean = _divided(sums(surface, scale, corners.gather(measures)))
+    again = _divided(sums(surface, scale, corners.gather(_spread(surface, measures[:, _MU_0], mean))))
+    del measures
+    K, h = np.full((2, surface.n_vertices), np.nan)
+    half, directions = np.full(surface.n_vertices, np.nan), np.full((2, 3, surface.n_vertices), np.nan)
+
+    def finish(block: slice) -> None:
+        sharp = np.ascontiguousarray((2 * mean[block, _MU_2:] - again[block, _MU_2:]).T)
+        known = np.isfinite(normal[:, block]).all(axis=0)
+        oriented = known & ~surface.without_orientation[block]
+        K[block] = np.where(known, sharp[0], np.nan)
+        tensor = sharp[1:]
+        h[block] = np.where(oriented, tensor[0] + tensor[3] + tensor[5], np.nan)
+        _, apart, *pair = tangential(tensor, normal[:, block])
+        half[block] = apart
+        # The rounding of unit normals is that of curvatures the size of a face.
+        rounding = np.abs(tensor).max(axis=0) + 1 / np.sqrt(mean[block, _MU_0])
+        distinct = oriented & (apart > _UMBILIC * rounding)
+        directions[:, :, block] = np.where(distinct, [line(vector) for vector in pair], np.nan)
+
+    for_each(face_blocks(surface.n_vertices), finish)
+    return K, h, 0.5 * h + half, 0.5 * h - half, directions[0], directions[1]
+
+
+class _Corners:
+    """The corners at each vertex, by which measures of faces are gathered there."""
+
+    def __init__(self, surface: Surface) -> None:
+        shape = (surface.n_faces, surface.n_vertices)
+        start = np.arange(0, 3 * surface.n_faces + 1, 3, dtype=np.int32)
+        self._plain = self._odd = self._at_vertices(np.ones(3 * surface.n_faces), surface.faces, start, shape)
+        if surface.corner_sign is not None:
+            sign = surface.corner_sign.ravel().astype(np.float64)
+            self._odd = self._at_vertices(sign, surface.faces, start, shape)
+
+    def _at_vertices(self, data: Floats, faces: Index, start: Index, shape: tuple[int, int]) -> csr_array:
+        by_vertex = csr_array((data, faces.ravel(), start), shape=shape).tocsc()
+        return csr_array((by_vertex.data, by_vertex.indices, by_vertex.indptr), shape=shape[::-1])
+
+    def gather(self, measures: Floats) -> Floats:
+        """(V, 9) sums over the faces at each vertex of measures (F, 9), the tensor as the star is oriented."""
+        found: Floats = self._plain @ measures
+        if self._odd is not self._plain:
+            found[:, _TENSOR] = self._odd @ np.ascontiguousarray(measures[:, _TENSOR])
+        return found
+
+
+def _measures(surface: Surface, normal: VectorColumn) -> Floats:
+    """(F, 9) a third of each face's μ₀, of its area, of μ₂ and of the tensor ∫∇u.
+
+    A face with a corner whose normal is null adds nothing. With d the edges and e the differences of the normals from
+    corner 0, ∫∇u = ½ (e₁ ⊗ (d₂ × ū) + e₂ ⊗ (ū × d₁)) for u linear on the face; its trace is μ₁.
+    """
+    found = np.empty((surface.n_faces, 9))
+    sign = surface.corner_sign
+
+    def measure(block: slice) -> None:
+        face = by_corner(surface.faces[block])
+        p = [[x.take(corner) for x in surface.xyz] for corner in face]
+        n = [[x.take(corner) for x in normal] for corner in face]
+        if sign is not None:
+            n = [[x * sign[block, k] for x in vector] for k, vector in enumerate(n)]
+        d_1, d_2 = ([b - a for a, b in zip(p[0], p[k], strict=True)] for k in (1, 2))
+        e_1, e_2 = ([b - a for a, b in zip(n[0], n[k], strict=True)] for k in (1, 2))
+        mean = [(a + b + c) / 3 for a, b, c in zip(*n, strict=True)]
+        upright = cross(d_1, d_2)
+        one, other = cross(d_2, mean), cross(mean, d_1)
+        rows = [dot(mean, upright), np.sqrt(dot(upright, upright)), dot(n[0], cross(n[1], n[2]))]
+        for i, j in ENTRIES:
+            entry = e_1[i] * one[j] + e_2[i] * other[j]
+            rows.append(entry if i == j else 0.5 * (entry + e_1[j] * one[i] + e_2[j] * other[i]))
+        unknown = np.isnan(rows[_MU_0])
+        if unknown.any():
+            rows = [np.where(unknown, 0.0, row) for row in rows]
+        found[block] = np.stack(rows, axis=1) / 6
+
+    for_each(face_blocks(surface.n_faces), measure)
+    return found
+
+
+def _divided(total: Floats) -> Floats:
+    """The sums of measures, from μ₂ on as densities; null where the measure of area is not sound."""
+    mu_0 = total[:, _MU_0].copy()
+    unsound = ~((mu_0 > 0) & (mu_0 >= _ASTRAY * total[:, _AREA]))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        total[:, _MU_2:] /= mu_0[:, None]
+    total[unsound] = np.nan
+    return total
+
+
+def _spread(surface: Surface, mu_0: Floats, density: Floats) -> Floats:
+    """(F, 9) the measures of a density that is given at the vertices, as `_measures` has them."""
+    found = np.empty((surface.n_faces, 9))
+    sign = surface.corner_sign
+
+    def spread(block: slice) -> None:
+        total = np.zeros((block.stop - block.start, 9))
+        for k, corner in enumerate(surface.faces[block].T):
+            each = density.take(corner, axis=0)
+            if sign is not None:
+                each[:, _TENSOR] *= sign[block, k, None]
+            total += each
+        total *= mu_0[block, None] / 3
+        total[:, _MU_0] = mu_0[block]
+        total[:, _AREA] = np.abs(mu_0[block])
+        total[np.isnan(total[:, _MU_2])] = 0.0
+        found[block] = total
+
+    for_each(face_blocks(surface.n_faces), spread)
+    return found

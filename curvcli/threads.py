@@ -1,0 +1,29 @@
+"""Work on blocks in two threads: array arithmetic lets go of the interpreter, and each block has a place of its own."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from itertools import islice
+from typing import TypeVar
+
+_Piece = TypeVar("_Piece")
+
+# More wait for memory and for each other.
+_THREADS = 2
+
+
+def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
+    """Do the work for every piece; pieces must not share what they write, so that the order does not matter.
+
+    Pieces are taken from an iterator as they are needed, so that few are there at a time.
+    """
+    todo = iter(pieces)
+    if (os.cpu_count() or 1) < _THREADS:
+        for piece in todo:
+            work(piece)
+        return
+    with ThreadPoolExecutor(_THREADS) as pool:
+        while batch := list(islice(todo, 4 * _THREADS)):
+            list(pool.map(work, batch))
