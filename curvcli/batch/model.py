@@ -9,6 +9,7 @@ from typing import Any, Literal
 import msgspec
 
 from .._version import __version__
+from ..output.write import Appearance
 
 Status = Literal["ok", "failed_checks", "error", "timeout", "out_of_memory", "crashed"]
 
@@ -40,6 +41,7 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
     input_format: str | None = None
     max_faces: int | None = None
     max_bytes: int | None = None
+    appearance: Appearance = Appearance()
 
     def digest(self) -> str:
         """The hash by which a later run knows that it was asked for the same; plug-ins count with their versions."""

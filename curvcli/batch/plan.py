@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 
 from ..errors import NoMatchError, UsageError
 from ..loading.content import shown
-from ..output.formats import format_of
+from ..output.formats import FORMATS, format_of
 from ..tables import TABLES
 from .model import Item
 from .places import expand, is_url, listed, local, parts_of, read_url, root_of
@@ -56,7 +56,7 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
 
 def outputs(stem: str, save: Iterable[str]) -> tuple[tuple[str, str], ...]:
     """Kind and path of every output of one mesh."""
-    return tuple((kind if dot else "", f"{stem}.{one}") for one in save for kind, dot, _ in [one.partition(".")])
+    return tuple((_split(one)[0], f"{stem}.{one}") for one in save)
 
 
 def saves(options: Iterable[str]) -> tuple[str, ...]:
@@ -66,13 +66,19 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
     """
     found: dict[str, None] = {}
     for one in (part.strip().lower().lstrip(".") for option in options for part in option.split(",")):
-        kind, dot, suffix = one.rpartition(".")
-        if dot and (kind not in TABLES or kind == "vertices"):
+        kind, suffix = _split(one)
+        if kind and (kind not in TABLES or kind == "vertices"):
             kinds = ", ".join(kind for kind in TABLES if kind != "vertices")
             raise UsageError(f"--save {shown(one)}: expected KIND.SUFFIX with KIND one of {kinds}")
-        format_of(f"x.{suffix}", kinds=["table"] if dot else ["table", "mesh", "report"])
+        format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "picture"])
         found[one] = None
     return tuple(found)
+
+
+def _split(save: str) -> tuple[str, str]:
+    """The kind of table and the suffix of `edges.csv`; no kind before a suffix, be it one of two parts, as hist.png."""
+    kind, _, suffix = ("", "", save) if f".{save}" in FORMATS else save.rpartition(".")
+    return kind, suffix
 
 
 def _shared(roots: Sequence[tuple[str, ...]]) -> int:

@@ -18,7 +18,7 @@ from ..loading.read import read_mesh_file
 from ..loading.recognise import format_of_name
 from ..loading.surfaces import from_file
 from ..output.atomic import Outputs
-from ..output.write import Appearance, write_into
+from ..output.write import write_into
 from ..report.model import pieces
 from .model import Item, Limits, Row, Settings
 from .outcome import explained
@@ -38,7 +38,7 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, BaseExcept
     try:
         analysis = _analysed(item, settings)
         row = _row(item, analysis)  # first: tables compute more, and a row must not depend on what is saved
-        _write(analysis, item)
+        _write(analysis, item, settings)
     except Exception as error:
         failure = error
         row = explained(item.path, error, limits)
@@ -78,14 +78,14 @@ def _surface(item: Item, settings: Settings) -> Surface:
         raise
 
 
-def _write(analysis: Analysis, item: Item) -> None:
+def _write(analysis: Analysis, item: Item, settings: Settings) -> None:
     paths = [path for kind, path in item.outputs if not kind]
     tables = [(kind, path) for kind, path in item.outputs if kind]
     for folder in {os.path.dirname(path) for _, path in item.outputs}:
         _make(folder)
     # The folder is the batch's own and was checked at the start: what stands there is of an earlier run.
     with Outputs([path for _, path in item.outputs], force=True) as outputs:
-        analysis.extra_notices += write_into(outputs, analysis, paths, Appearance(), tables=tables)
+        analysis.extra_notices += write_into(outputs, analysis, paths, settings.appearance, tables=tables)
         outputs.commit()
 
 

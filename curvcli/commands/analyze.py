@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of the report and stop.")
 @click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
 @options.drawing
-@click.option("--quality", is_flag=True, help="Write the colouring column of .ply as `quality` too, as MeshLab wants.")
 @click.option(
     "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
 )
@@ -94,15 +93,6 @@ class Run:
         quiet: bool,
         verbose: int,
         stream_format: str | None,
-        color_by: str | None,
-        cmap: str | None,
-        value_range: str | None,
-        view: str,
-        up: Literal["y", "z"],
-        size: str | None,
-        background: str,
-        edges_on: bool,
-        quality: bool,
         precision: str,
         input_format: str | None,
         max_faces: int | None,
@@ -110,8 +100,7 @@ class Run:
         **conventions: Any,
     ) -> None:
         from ..output.formats import format_of
-        from ..output.look import Look, parse_size
-        from ..output.write import Appearance, check_appearance
+        from ..output.write import check_appearance
         from ..pipeline import resolve
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
@@ -120,9 +109,7 @@ class Run:
         self.passes = resolve(passes or ("core",))
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
         self.stream_format = stream_format
-        look = Look(view, up, parse_size(size), background, edges_on)
-        columns = tuple(dict.fromkeys(name.strip() for name in (color_by or "").split(",") if name.strip()))
-        self.appearance: Appearance = Appearance(columns, cmap, value_range, precision, quality, look)
+        self.appearance: Appearance = options.appearance(conventions, precision)
         kinds = [table_option(table) for table in tables]
         self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
         self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     "--save",
     metavar="SUFFIX[,SUFFIX]",
     multiple=True,
-    help="Write of each mesh what `analyze -o` does, such as csv,ply,json, or a table, such as edges.csv. "
+    help="Write of each mesh what `analyze -o` does, such as csv,ply,png,json, or a table, such as edges.csv. "
     "Without it only the summary is written.",
 )
 @click.option("--files-from", metavar="LIST|-", help="Take more meshes from a list: lines, or NUL-terminated names.")
@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 @options.passes
 @click.option("--regions", metavar="groups|objects|materials|PROPERTY", help="Labels of faces within each mesh.")
 @options.reading
+@options.drawing
 @click.option("--force", is_flag=True, help="Begin anew in a DIR that is not empty; what is written is replaced.")
 @options.strict
 @options.talking
@@ -92,6 +93,7 @@ def run(
     from ..batch.manifest import Manifest
     from ..batch.model import Limits, Settings
     from ..batch.plan import plan, saves
+    from ..output.write import check_appearance
     from ..pipeline import resolve
     from .main import worst
 
@@ -103,7 +105,9 @@ def run(
     chosen = tuple(resolve(passes or ("core",)))
     if any(one.startswith("regions.") for one in wanted) and conventions["regions"] is None:
         raise UsageError("--save regions: there are none without --regions")
-    how = Settings(passes=chosen, save=wanted, weld=options.welding(weld), **conventions)
+    appearance = options.appearance(conventions)
+    check_appearance(appearance, list(chosen), [f".{one}" for one in wanted])
+    how = Settings(passes=chosen, save=wanted, weld=options.welding(weld), appearance=appearance, **conventions)
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
     items = plan(patterns, files_from, folder, wanted)
     # A scheduler that does not answer leaves no folder behind.

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from ..output.write import Appearance
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -130,9 +133,26 @@ drawing = together(
         "--background", metavar="COLOR", default="white", show_default=True, help="Behind a picture: a name or #rrggbb."
     ),
     click.option("--edges-on", is_flag=True, help="Draw the edges of all faces in a picture."),
+    click.option("--quality", is_flag=True, help="Write the colouring column of .ply as `quality` too, for MeshLab."),
 )
 reading = together(area, mean, orient, weld, unit, input_format, max_faces, max_bytes)
 talking = together(quiet, verbose)
+
+
+def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appearance:
+    """How outputs look, by the options of `drawing`, which are taken out of the settings.
+
+    Errors: UsageError for a size that is none.
+    """
+    from ..output.look import Look, parse_size
+    from ..output.write import Appearance
+
+    names = (settings.pop("color_by") or "").split(",")
+    columns = tuple(dict.fromkeys(name.strip() for name in names if name.strip()))
+    view, up, size, background, edges = (settings.pop(key) for key in ("view", "up", "size", "background", "edges_on"))
+    cmap, value_range, quality = (settings.pop(key) for key in ("cmap", "value_range", "quality"))
+    look = Look(view, up, parse_size(size), background, edges)
+    return Appearance(columns, cmap, value_range, precision, quality, look)
 
 
 def welding(text: str) -> str | float:

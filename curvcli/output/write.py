@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -133,9 +134,11 @@ def _colored_column(name: str, chosen: list[str]) -> Quantity:
     """The quantity whose column colours the mesh."""
     columns = _columns(chosen)
     if name not in columns:
-        raise UsageError(
-            f"--color-by {name}: no such column is computed, expected one of {', '.join(columns)}; -p {name} adds it"
-        )
+        offered = _columns([quantity.name for quantity in passes.quantities("vertex")])
+        if name in offered:
+            raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
+        near = get_close_matches(name, offered, 3, 0.4) or list(columns)
+        raise UsageError(f"--color-by {name}: no such column of vertices; nearest: {', '.join(near)}")
     return columns[name]
 
 
