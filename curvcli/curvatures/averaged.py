@@ -6,46 +6,118 @@ from typing import Any
 
 import numpy as np
 
-from ..declare import Column, Quantity, VectorColumn, curvature_pass
+from ..blocks import Floats, dot, face_blocks
+from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
 from ..neighbourhoods import sums
 from ..settings import Scale
 from ..surface import Surface
-from .star import ratio
+from .directions import star_tensors
+from .mean import LOST
+from .star import null_where, ratio
+from .tensor import tangential
 
 _SHARED: dict[str, Any] = {
     "kind": "density",
     "signed": True,
-    "boundary": "null; vertices where K or H_vec is undefined or on the boundary add neither measure nor area",
-    "source": "Cohen-Steiner and Morvan, Restricted Delaunay triangulations and normal cycle; "
-    "measures: Sullivan, Discrete surfaces",
+    "boundary": "null; vertices on the boundary or without K and **H**_p add neither measure nor area",
+    "source": "Cohen-Steiner and Morvan, Restricted Delaunay triangulations and normal cycle, 2003; the measures are "
+    "those of K, H_vec, A_vec and A",
 }
+
+
+def _sums(surface: Surface, scale: Scale, used: Flags, rows: list[Floats]) -> Floats:
+    """(k, V) sums over neighbourhoods of the rows where they are used."""
+    data = np.where(used, rows, 0.0).T
+    return np.ascontiguousarray(sums(surface, scale, np.ascontiguousarray(data)).T)
 
 
 @curvature_pass(
     provides=(
         Quantity("ring_area", public=False, length_exponent=2),
-        Quantity("ring_vector", public=False, vector=True, length_exponent=2, parity="odd"),
-        Quantity("ring_H_vec", public=False, vector=True, length_exponent=1, mean_degree=1),
         Quantity("ring_K", public=False),
+        Quantity("ring_H_vec", public=False, vector=True, length_exponent=1, mean_degree=1),
+        Quantity("ring_vector", public=False, vector=True, length_exponent=2, parity="odd"),
     )
 )
 def ring_sums(
-    surface: Surface, scale: Scale, K: Column, H_vec: VectorColumn, A_vec: VectorColumn, star_area: Column
+    surface: Surface, scale: Scale, K: Column, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column
 ) -> tuple[Column, ...]:
-    """Sums of the measures over each neighbourhood."""
-    used = surface.interior & np.isfinite(K) & np.isfinite(H_vec).all(axis=0)
-    data = np.where(used, [star_area, K, *H_vec, *A_vec], 0.0)
-    total = sums(surface, scale, np.ascontiguousarray(data.T)).T.copy()
-    return total[0], total[5:8], total[2:5], total[1]
+    """ΣA, ΣK, Σ**H** and Σ**A** of the vertices of each neighbourhood."""
+    used = surface.interior & np.isfinite(K) & np.isfinite(H_vec[0])
+    total = _sums(surface, scale, used, [star_area, K, *H_vec, *star_vector])
+    return total[0], total[1], total[2:5], total[5:8]
 
 
 @curvature_pass(
     symbol="K̄",
     formula="ΣK_p / ΣA_p over the neighbourhood",
     length_exponent=-2,
-    preserves="its measure is that of the neighbourhood, exactly",
+    preserves="K_ring times the area of the neighbourhood is its exact Gauss curvature",
     **_SHARED,
 )
 def K_ring(surface: Surface, ring_K: Column, ring_area: Column) -> Column:
-    """Gauss curvature of the neighbourhood per area."""
+    """Gauss curvature of the neighbourhood per area: the exact measure at the scale of --rings or --radius."""
     return ratio(ring_K, ring_area, surface.interior)
+
+
+@curvature_pass(
+    symbol="H̄",
+    formula="|Σ**H**_p| / |Σ**A**_p| over the neighbourhood, positive where Σ**H**·Σ**A** < 0",
+    length_exponent=-1,
+    mean_degree=1,
+    parity="odd",
+    preserves="Σ**H**_p is the force on the rim of the neighbourhood, exactly",
+    **_SHARED,
+)
+def h_ring(surface: Surface, ring_H_vec: VectorColumn, ring_vector: VectorColumn, ring_area: Column) -> Column:
+    """Mean curvature κ₁ + κ₂ of the neighbourhood, positive where convex; null where |ΣA_vec| < 1e-12 ΣA."""
+    length = np.sqrt(dot(ring_vector, ring_vector))
+    pointed = surface.interior & (length >= LOST * ring_area)
+    size = ratio(np.sqrt(dot(ring_H_vec, ring_H_vec)), length, pointed)
+    return null_where(surface.without_orientation, np.where(dot(ring_H_vec, ring_vector) < 0, size, 0.0 - size))
+
+
+_KAPPA: dict[str, Any] = {
+    "length_exponent": -1,
+    "parity": "odd",
+    "preserves": "Σ θ_e|e| of the neighbourhood, up to what is not tangential",
+    **_SHARED,
+}
+
+
+@curvature_pass(
+    provides=(
+        Quantity(
+            "kappa_1_ring",
+            symbol="κ̄₁",
+            formula="larger eigenvalue of ½ΣΣ θ_e|e| ê⊗ê / ΣA_p orthogonally to Σ**A**_p",
+            description="Larger principal curvature of the neighbourhood, from its curvature tensor.",
+            partner="kappa_2_ring",
+            **_KAPPA,
+        ),
+        Quantity(
+            "kappa_2_ring",
+            symbol="κ̄₂",
+            formula="smaller eigenvalue of ½ΣΣ θ_e|e| ê⊗ê / ΣA_p orthogonally to Σ**A**_p",
+            description="Smaller principal curvature of the neighbourhood, from its curvature tensor.",
+            partner="kappa_1_ring",
+            **_KAPPA,
+        ),
+    )
+)
+def ring_principal_curvatures(
+    surface: Surface, scale: Scale, theta: Column, star_vector: VectorColumn, star_area: Column
+) -> tuple[Column, ...]:
+    """Eigenvalues of the curvature tensor of the neighbourhood per area; half of each edge's goes to each end."""
+    tensor, _ = star_tensors(surface, theta)
+    used = surface.interior & np.isfinite(tensor[0])
+    total = _sums(surface, scale, used, [star_area, *star_vector, *tensor])
+    found = np.full((2, surface.n_vertices), np.nan)
+    for block in face_blocks(surface.n_vertices):
+        area, vector = total[0, block], total[1:4, block]
+        length = np.sqrt(dot(vector, vector))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            middle, half, _, _ = tangential(0.5 * total[4:, block] / area, vector / length)
+        known = (area > 0) & (length >= LOST * area) & surface.interior[block] & ~surface.without_orientation[block]
+        found[:, block] = np.where(known, [middle + half, middle - half], np.nan)
+    return found[0], found[1]
