@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     metavar="PATH",
     multiple=True,
     help="Write .csv .tsv .parquet .npz (table), .ply .obj .vtp .vtu .glb (coloured mesh), .png (picture), "
-    ".hist.png (histograms) or .json (report); repeatable. "
+    ".hist.png (histograms), .json .md (report) or .html (report with the surface to turn); repeatable. "
     "With several meshes, {stem} stands for each one's name. `-` is stdout.",
 )
 @click.option(
@@ -113,7 +113,7 @@ class Run:
         kinds = [table_option(table) for table in tables]
         self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
         self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]
-        kinds_of_output: tuple[Kind, ...] = ("table", "mesh", "report", "picture")
+        kinds_of_output: tuple[Kind, ...] = ("table", "mesh", "report", "page", "picture")
         formats = [
             format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
             for path in self.paths[0]
@@ -168,6 +168,7 @@ class Run:
         from ..analysis import analyze
         from ..loading.surfaces import load
         from ..output.write import write_into
+        from ..report.words import shell_quoted
         from .progress import phase
 
         with phase(f"reading {mesh}", self.quiet) as reading:
@@ -181,7 +182,14 @@ class Run:
         if paths or tables:
             with phase(f"writing {mesh}", self.quiet):
                 analysis.extra_notices += write_into(
-                    outputs, analysis, paths, self.appearance, self.stream_format, tables, self.tell_of_picture
+                    outputs,
+                    analysis,
+                    paths,
+                    self.appearance,
+                    self.stream_format,
+                    tables,
+                    tell=self.tell_of_picture,
+                    command=shell_quoted(["curvcli", *sys.argv[1:]]),
                 )
         return analysis
 

@@ -10,7 +10,7 @@ from typing import Literal
 
 from ..errors import UsageError
 
-Kind = Literal["table", "mesh", "triangles", "report", "picture"]
+Kind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,8 @@ FORMATS: dict[str, Format] = {
         Format(".glb", "mesh", "mesh with vertex colours, binary glTF, float32"),
         Format(".stl", "triangles", "triangles, binary, float32"),
         Format(".json", "report", "report, JSON"),
+        Format(".html", "page", "report as one page with the surface to turn, HTML"),
+        Format(".md", "page", "report for pull requests, Markdown"),
         Format(".png", "picture", "picture of the coloured surface"),
         Format(".hist.png", "picture", "histogram and area-weighted distribution of columns"),
     )

@@ -69,10 +69,12 @@ def write_into(
     stream_format: str | None = None,
     tables: Iterable[tuple[str, str]] = (),
     tell: Callable[[str], None] = lambda line: None,
+    command: str | None = None,
 ) -> list[Notice]:
     """Write the vertex table, mesh, picture or report that each path's suffix names into outputs that are open already.
 
     tables: pairs of a kind (`edges`, `faces`, …) and a path. tell: takes what a picture leaves out, a line at a time.
+    command: what makes these outputs, for the pages that say so.
     """
     notices: list[Notice] = []
     require_polars(64 * analysis.surface.n_vertices)
@@ -94,6 +96,8 @@ def write_into(
             elif kind.kind == "picture":
                 for line in _write_picture(stream, analysis, kind.suffix, appearance):
                     tell(f"{path}: {line}")
+            elif kind.kind == "page":
+                _write_page(stream, analysis, kind.suffix, appearance, command)
             else:
                 from ..report.model import encode, model
 
@@ -113,6 +117,10 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
         check_look(appearance.look)
     if suffixes & {".vtp", ".vtu"}:
         require_vtk()
+    if ".html" in suffixes:
+        from .html.page import require
+
+        require()
     if appearance.precision != "shortest":
         from .tables import parse_precision
 
@@ -184,6 +192,20 @@ def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance
         shown = [colored(analysis, name, appearance) for name in names]
         write_picture(stream, analysis, shown, appearance.look, appearance.value_range)
     return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in shown]
+
+
+def _write_page(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance, command: str | None) -> None:
+    """Write the report for people."""
+    if suffix == ".md":
+        from ..report.markdown import markdown
+        from ..report.model import model
+
+        stream.write(markdown(model(analysis), command).encode("utf-8"))
+    else:
+        from .html.page import page
+
+        first = appearance.color_by or tuple(name for name in _COLOR_BY if name in analysis.chosen)[:1]
+        stream.write(page(analysis, appearance, first, command))
 
 
 def _write_mesh(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[Notice]:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...declare import Quantity, passes
 from ...loading.model import Labels
 from ...tables import vertex_table
-from ..colors import ColorScale, colorize
+from ..colors import ColorScale
+from ..legend import Colored
+from ..write import colored
 
 if TYPE_CHECKING:
     from ...analysis import Analysis
@@ -36,13 +37,21 @@ class Bar:
 class Column:
     """One column with a value per vertex of the file, NaN where undefined, and the colours it is shown in."""
 
-    name: str
-    quantity: Quantity
+    painted: Colored
     unit: str
     values: NDArray[np.float64]
-    scale: ColorScale
     bars: list[Bar]
     most: int
+
+    @property
+    def name(self) -> str:
+        """Its name in the table."""
+        return self.painted.name
+
+    @property
+    def scale(self) -> ColorScale:
+        """Its colours."""
+        return self.painted.scale
 
     @property
     def middle(self) -> float | None:
@@ -51,30 +60,22 @@ class Column:
         return None if low is None or high is None else low / 2 + high / 2
 
 
-def columns(analysis: Analysis, appearance: Appearance, colored: str | None) -> list[Column]:
+def columns(analysis: Analysis, appearance: Appearance, asked: tuple[str, ...]) -> list[Column]:
     """Every numeric column of the vertex table, in its order.
 
-    colored: the column that `--range LO:HI` speaks of; a percentage is for all.
+    asked: the columns that `--range LO:HI` speaks of; a percentage is for all.
     """
-    boundary, referenced = analysis.surface.boundary, analysis.surface.referenced
-    known = {column: q for q in map(passes.quantity, analysis.chosen) if q.on == "vertex" for column in q.columns}
+    referenced = analysis.surface.referenced
+    plain = replace(appearance, value_range=None)
+    shared = appearance.value_range is not None and ":" not in appearance.value_range
     found = []
     for name, given in vertex_table(analysis).items():
         if name in _PLAIN or isinstance(given, Labels):
             continue
-        quantity = known[name]
         values = np.where(referenced & ~np.ma.getmaskarray(given), np.ma.getdata(given), np.nan).astype(np.float64)
-        shared = appearance.value_range is not None and ":" not in appearance.value_range
-        scale = colorize(
-            values,
-            cmap=appearance.cmap,
-            value_range=appearance.value_range if shared or name == colored else None,
-            signed=quantity.signed or quantity.vector,
-            ignore=boundary,
-        )
-        bars, most = histogram(values[referenced], scale)
-        unit = quantity.unit(analysis.conventions.unit)
-        found.append(Column(name, quantity, unit, values, scale, bars, most))
+        painted = colored(analysis, name, appearance if shared or name in asked else plain)
+        bars, most = histogram(values[referenced], painted.scale)
+        found.append(Column(painted, painted.unit(analysis.conventions.unit), values, bars, most))
     return found
 
 

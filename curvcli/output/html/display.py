@@ -55,7 +55,7 @@ def simplified(surface: Surface, most: int) -> Display:
     place[used] = rank[number]
     faces = place[surface.faces]
     faces = _distinct(faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)], len(vertices))
-    if len(faces) < len(vertices) // 4:
+    if len(faces) < max(1, len(vertices) // 4):
         chosen = np.linspace(0, surface.n_faces - 1, max(1, most // 3)).astype(np.int64)
         vertices, corners = np.unique(surface.faces[np.unique(chosen)], return_inverse=True)
         place = np.full(surface.n_vertices, -1, np.int32)

@@ -11,30 +11,38 @@ from numpy.typing import NDArray
 
 # Beyond these float32 has no number, or not all its digits.
 _LARGEST, _SMALLEST = 1e37, 1e-30
-# An offset is taken out of values whose spread is this many times smaller: float32 would keep too little of it.
-_OFFSET = 64.0
+# Of values whose spread is this many times smaller than they are, float32 keeps too few digits to tell them apart.
+_NARROW = 256.0
 
 
 class Scaled(NamedTuple):
-    """Numbers as base + 2**exponent · values; base and exponent are 0 where float32 alone is as good."""
+    """Numbers as 2**exponent · (values + rest): values alone are the numbers to float32.
+
+    The exponent is 0 where float32 reaches, the rest is None where it is not needed to tell the numbers apart.
+    """
 
     values: NDArray[np.float32]
-    base: float
+    rest: NDArray[np.float32] | None
     exponent: int
+
+    @property
+    def parts(self) -> NDArray[np.float32]:
+        """(n,) or (n, 2) values, and the rest where there is one."""
+        return self.values if self.rest is None else np.stack([self.values, self.rest], axis=1)
 
 
 def scaled(numbers: NDArray[np.float64]) -> Scaled:
-    """Numbers for a page to the precision of float32, at any scale and at any offset; NaN stays."""
+    """Numbers for a page to the precision of float32, at any scale; NaN stays."""
     known = numbers[~np.isnan(numbers)]
     if not len(known):
-        return Scaled(numbers.astype(np.float32), 0.0, 0)
+        return Scaled(numbers.astype(np.float32), None, 0)
     low, high = float(known.min()), float(known.max())
-    size, half = max(abs(low), abs(high)), high / 2 - low / 2
-    base = low / 2 + high / 2 if 0 < half < size / (2 * _OFFSET) else 0.0
-    rest = numbers - base
-    size = max(abs(low - base), abs(high - base))
-    exponent = 0 if size == 0 or _SMALLEST < size < _LARGEST else int(np.frexp(size)[1])
-    return Scaled(np.ldexp(rest, -exponent).astype(np.float32), base, exponent)
+    size = max(abs(low), abs(high))
+    exponent = 0 if size == 0 or _SMALLEST < size < _LARGEST else int(np.frexp(size)[1]) - 1
+    plain = np.ldexp(numbers, -exponent) if exponent else numbers
+    values = plain.astype(np.float32)
+    narrow = 0 < high / 2 - low / 2 < size / (2 * _NARROW)
+    return Scaled(values, (plain - values).astype(np.float32) if narrow else None, exponent)
 
 
 def packed(array: NDArray[Any]) -> str:

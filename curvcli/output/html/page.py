@@ -17,6 +17,8 @@ from ...report.check import printable
 from ...report.model import model
 from ...report.proof import holds, proof
 from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
+from ..camera import frame
+from ..look import VIEWS, Look, parse_view
 from .columns import Column, columns, hex_color
 from .display import Display, simplified, whole
 from .engine import engine
@@ -41,8 +43,9 @@ def require() -> None:
         raise MissingExtraError("-o .html: needs Jinja; `pip install 'curvcli[page]'`")
 
 
-def page(analysis: Analysis, appearance: Appearance, colored: str | None, command: str | None) -> bytes:
-    """The page of an analysis. colored: the column that is shown first. command: what made it, for a shell.
+def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], command: str | None) -> bytes:
+    """The page of an analysis. colored: the columns that were asked for; the first is shown first.
+    command: what made it, for a shell.
 
     Errors: MissingExtraError.
     """
@@ -89,7 +92,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: str | None, comman
         first=_first(shown, colored),
         display=display,
         surface=analysis.surface,
-        data=_data(analysis, display, shown, blocks.pop("meta")),
+        data=_data(analysis, appearance, display, shown, blocks.pop("meta")),
         blocks={name: Markup(text) for name, text in blocks.items()},
         command=command,
         style=Markup(style),
@@ -99,9 +102,9 @@ def page(analysis: Analysis, appearance: Appearance, colored: str | None, comman
     return text.encode("utf-8")
 
 
-def _first(shown: list[Column], colored: str | None) -> str | None:
+def _first(shown: list[Column], colored: tuple[str, ...]) -> str | None:
     names = [column.name for column in shown]
-    return colored if colored in names else next(iter(names), None)
+    return next((name for name in (*colored, *names) if name in names), None)
 
 
 def _totals() -> dict[str, Any]:
@@ -156,9 +159,12 @@ def _blocks(analysis: Analysis, display: Display, shown: list[Column]) -> dict[s
     vertices = display.vertices
     meta: dict[str, Any] = {"columns": {}}
     axes = [scaled(axis[vertices]) for axis in analysis.surface.xyz_given]
-    meta["axes"] = [{"base": axis.base, "exponent": axis.exponent} for axis in axes]
+    meta["axes"] = [{"exponent": axis.exponent} for axis in axes]
+    rests = [axis.rest for axis in axes if axis.rest is not None]
+    if rests:
+        rests = [np.zeros_like(axis.values) if axis.rest is None else axis.rest for axis in axes]
     found: dict[str, Any] = {
-        "positions": packed(np.stack([axis.values for axis in axes], axis=1)),
+        "positions": packed(np.stack([*(axis.values for axis in axes), *rests], axis=1)),
         "vertices": packed(differences(vertices)),
         "faces": packed(steps(display.faces)),
         "boundary": packed(steps(display.boundary)),
@@ -170,8 +176,8 @@ def _blocks(analysis: Analysis, display: Display, shown: list[Column]) -> dict[s
         found["status"] = packed(codes)
     for index, column in enumerate(shown):
         numbers = scaled(column.values[vertices])
-        meta["columns"][column.name] = {"base": numbers.base, "exponent": numbers.exponent}
-        found[f"column-{index}"] = packed(numbers.values)
+        meta["columns"][column.name] = {"exponent": numbers.exponent}
+        found[f"column-{index}"] = packed(numbers.parts)
     return {**found, "meta": meta}
 
 
@@ -186,7 +192,17 @@ def _normals(analysis: Analysis, display: Display) -> Any:
     return np.nan_to_num(np.rint(127 * unit / np.where(size > 0, size, 1.0))).astype(np.int8).T
 
 
-def _data(analysis: Analysis, display: Display, shown: list[Column], meta: dict[str, Any]) -> dict[str, Any]:
+def _camera(look: Look) -> list[list[float]]:
+    """The direction from which the surface is seen first, and what is upwards then; `fit` is for pictures."""
+    angles = parse_view(look.view) or VIEWS["iso"]
+    _, above, towards = frame(*angles)
+    turned = [[v[0], v[2], -v[1]] if look.up == "y" else list(v) for v in (towards, above)]
+    return [[float(part) for part in vector] for vector in turned]
+
+
+def _data(
+    analysis: Analysis, appearance: Appearance, display: Display, shown: list[Column], meta: dict[str, Any]
+) -> dict[str, Any]:
     """What the page's program has to know."""
     from ...declare import passes
 
@@ -211,4 +227,7 @@ def _data(analysis: Analysis, display: Display, shown: list[Column], meta: dict[
         "vertices": len(display.vertices),
         "of": analysis.surface.n_vertices,
         "smooth": len(display.faces) > 5000,
+        "view": _camera(appearance.look),
+        "up": appearance.look.up,
+        "edges": appearance.look.edges,
     }

@@ -38,8 +38,8 @@ function rows(packed, k) {
   return found;
 }
 
-/** The numbers that stored ones stand for. */
-const real = (stored, of) => of.base + stored * 2 ** of.exponent;
+/** The number that a stored one stands for, and what float32 left of it where that is stored too. */
+const real = (stored, of, rest = 0) => (stored + rest) * 2 ** of.exponent;
 
 /** The shortest text that is the same float32; a few digits more where no float32 is near. */
 function shortest(value) {

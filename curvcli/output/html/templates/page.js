@@ -1,6 +1,7 @@
 /** Positions for the screen: the middle of the surface's box at the origin, its farthest vertex at distance 1. */
 function placed(stored, axes) {
-  const n = stored.length / 3;
+  const n = vertices.length;
+  const fine = stored.length > 3 * n;
   const box = axes.map((axis, k) => {
     let low = Infinity, high = -Infinity;
     for (let i = k * n; i < (k + 1) * n; i++) {
@@ -14,7 +15,7 @@ function placed(stored, axes) {
   if (first === -Infinity) return found;
   box.forEach(({ middle, exponent }, k) => {
     const factor = 2 ** (exponent - first);
-    for (let i = 0; i < n; i++) found[3 * i + k] = (stored[k * n + i] - middle) * factor;
+    for (let i = 0; i < n; i++) found[3 * i + k] = (stored[k * n + i] - middle + (fine ? stored[(k + 3) * n + i] : 0)) * factor;
   });
   let farthest = 0;
   for (let i = 0; i < 3 * n; i += 3) farthest = Math.max(farthest, Math.hypot(found[i], found[i + 1], found[i + 2]));
@@ -24,10 +25,11 @@ function placed(stored, axes) {
 
 /** Where between the ends of its colours each value of a column lies, and which are defined. */
 function spread(stored, of) {
-  const place = new Float32Array(stored.length), known = new Float32Array(stored.length);
+  const n = vertices.length;
+  const place = new Float32Array(n), known = new Float32Array(n);
   const half = of.high / 2 - of.low / 2;
-  for (let i = 0; i < stored.length; i++) {
-    const value = real(stored[i], of);
+  for (let i = 0; i < n; i++) {
+    const value = real(stored[i], of, stored.length > n ? stored[n + i] : 0);
     if (Number.isNaN(value) || of.low === null) continue;
     known[i] = 1;
     place[i] = half > 0
@@ -120,7 +122,7 @@ async function recolor() {
 const KEYS = {
   ArrowLeft: () => scene.turn(-0.15, 0), ArrowRight: () => scene.turn(0.15, 0),
   ArrowUp: () => scene.turn(0, -0.15), ArrowDown: () => scene.turn(0, 0.15),
-  "+": () => scene.zoom(0.85), "=": () => scene.zoom(0.85), "-": () => scene.zoom(1 / 0.85), 0: () => scene.look(...VIEWS.iso),
+  "+": () => scene.zoom(0.85), "=": () => scene.zoom(0.85), "-": () => scene.zoom(1 / 0.85), 0: () => scene.look(...data.view),
 };
 
 /** Let the canvas hear pointers and keys. */
@@ -190,7 +192,8 @@ function start() {
   scene.addLines(rows(crowdedPacked, 2), "--crowded");
   scene.uniforms.smoothly.value = data.smooth ? 1 : 0;
   scene.resize();
-  scene.look(...VIEWS.iso);
+  scene.look(...data.view);
+  scene.showEdges(data.edges);
   scene.paint();
   new ResizeObserver(() => scene.resize()).observe(canvas.parentElement);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => scene.paint());
@@ -199,12 +202,13 @@ function start() {
 }
 
 $("smooth").checked = data.smooth;
+$("edges").checked = data.edges;
 $("smooth").addEventListener("change", (event) => {
   if (scene) { scene.uniforms.smoothly.value = event.target.checked ? 1 : 0; scene.draw(); }
 });
 $("edges").addEventListener("change", (event) => scene?.showEdges(event.target.checked));
 for (const button of document.querySelectorAll("[data-view]")) {
-  button.addEventListener("click", () => scene?.look(...VIEWS[button.dataset.view]));
+  button.addEventListener("click", () => scene?.view(button.dataset.view));
 }
 menu?.addEventListener("change", recolor);
 input.addEventListener("change", typed);

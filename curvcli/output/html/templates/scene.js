@@ -44,7 +44,7 @@ void main() {
   gl_FragColor = vec4(r > 0.28 && r < 0.42 ? color : rim, 1.0);
 }`;
 const VIEWS = {
-  iso: [[1, -1.3, 0.8], [0, 0, 1]], front: [[0, -1, 0], [0, 0, 1]],
+  iso: [[1, -1, 0.8165], [0, 0, 1]], front: [[0, -1, 0], [0, 0, 1]],
   right: [[1, 0, 0], [0, 0, 1]], top: [[0, 0, 1], [0, 1, 0]],
 };
 const FIELD = 35;
@@ -178,6 +178,12 @@ void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 
     const position = this.geometry.getAttribute("position");
     const distance = (i) => new THREE.Vector3().fromBufferAttribute(position, i).distanceToSquared(hit.point);
     return [hit.face.a, hit.face.b, hit.face.c].reduce((best, i) => (distance(i) < distance(best) ? i : best));
+  }
+
+  /** Look at the whole surface from a named side. */
+  view(name) {
+    const upright = ([x, y, z]) => (data.up === "y" ? [x, z, -y] : [x, y, z]);
+    this.look(...VIEWS[name].map(upright));
   }
 
   /** Look at the whole surface from a direction. */
