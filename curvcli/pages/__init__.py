@@ -10,6 +10,7 @@ from ..report.quantities import page as quantities
 from .checks import page as checks
 from .command_line import page as command_line
 from .keys import page_part as report
+from .modules import page_part as modules
 from .suffixes import page_part as outputs
 from .tables import page_part as columns
 
@@ -23,6 +24,7 @@ PAGES: dict[str, Callable[[], str]] = {
 # Parts of pages: what stands between `<!-- made: NAME -->` and `<!-- end -->`.
 PARTS: dict[str, Callable[[], str]] = {
     "outputs": outputs,
+    "modules": modules,
     "columns": columns,
     "report": report,
 }
@@ -40,11 +42,10 @@ def current(name: str, text: str) -> str:
 def renew(folder: Path) -> list[str]:
     """Make the pages of a folder again; the names of those that changed."""
     changed = []
-    for path in sorted(folder.glob("**/*.md")):
-        name = str(path.relative_to(folder))
-        text = path.read_text(encoding="utf-8")
-        new = current(name, text)
+    for path in sorted({*folder.glob("**/*.md"), *(folder / name for name in PAGES)}):
+        text = path.read_text(encoding="utf-8") if path.exists() else ""
+        new = current(path.relative_to(folder).as_posix(), text)
         if new != text:
             path.write_text(new, encoding="utf-8")
-            changed.append(name)
+            changed.append(str(path))
     return changed

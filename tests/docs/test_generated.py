@@ -1,17 +1,31 @@
-"""Pages that a command makes are what the command makes now."""
+"""Pages that follow from the code are what the code makes now, and those written by hand name all there is."""
 
 from __future__ import annotations
 
-from pathlib import Path
+import re
 
-from curvcli.report.quantities import page, public
+import pytest
+from click import Context
 
-ROOT = Path(__file__).parent.parent.parent
+from curvcli.checks import rules
+from curvcli.commands import main
+from curvcli.commands.main import COMMANDS, cli
+from curvcli.pages import PAGES, PARTS, current
+from curvcli.report.quantities import public
+from curvcli.requirements import kinds
+from tests.docs.pages import NAMES, ROOT, text
 
 
-def test_the_page_of_quantities_is_current() -> None:
-    """`curvcli passes --markdown > docs/quantities.md` makes it again."""
-    assert (ROOT / "docs" / "quantities.md").read_text(encoding="utf-8") == page()
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "README.md"])
+def test_a_page_is_current(name: str) -> None:
+    """`python -m curvcli.pages docs` makes it again."""
+    assert current(name.removeprefix("docs/"), text(name)) == text(name)
+
+
+def test_every_page_and_part_is_shown() -> None:
+    assert {f"docs/{name}" for name in PAGES} <= set(NAMES)
+    for part in PARTS:
+        assert any(f"<!-- made: {part} -->" in text(name) for name in NAMES), part
 
 
 def test_every_quantity_says_what_it_is() -> None:
@@ -21,3 +35,38 @@ def test_every_quantity_says_what_it_is() -> None:
         assert quantity.formula, quantity.name
         assert quantity.boundary, quantity.name
         assert quantity.source, quantity.name
+
+
+def test_every_check_says_what_it_is() -> None:
+    for rule in rules.values():
+        assert all((rule.statement, rule.gap, rule.applies, rule.bound, rule.failure)), rule.name
+    for kind in kinds.values():
+        assert kind.statement, kind.name
+        assert kind.remedy, kind.name
+
+
+def test_every_option_of_every_command_is_on_the_page() -> None:
+    page = text("docs/command-line.md")
+    for name in COMMANDS:
+        command = cli.get_command(Context(cli), name)
+        assert command is not None
+        section = page.partition(f"## `curvcli {name}`\n")[2].partition("\n## ")[0]
+        for parameter in command.params:
+            assert all(option in section for option in parameter.opts if option.startswith("--")), parameter.name
+
+
+def test_every_warning_has_a_line() -> None:
+    page = text("docs/formats.md")
+    codes = {
+        code
+        for path in (ROOT / "curvcli").glob("**/*.py")
+        for code in re.findall(r'Notice(?:\.at)?\(\s*"(\w+)"', path.read_text(encoding="utf-8"))
+    }
+    assert "degenerate_faces" in codes
+    assert {code for code in codes if f"`{code}`" not in page} == set()
+
+
+def test_every_exit_code_has_a_line() -> None:
+    names = ("OK", "FAILED_CHECK", "USAGE", "INPUT", "OUTPUT", "NO_MATCH", "INTERNAL", "INTERRUPTED")
+    for name in names:
+        assert f"\n| {getattr(main, name)} | " in text("docs/formats.md"), name

@@ -1,0 +1,50 @@
+"""The programs that pages call, as scripts in a folder; `curvcli` is answered by a server that forks."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from tests.cli.program import environment
+
+SERVER = Path(__file__).with_name("server.py")
+
+
+def provide(folder: Path, **programs: str) -> None:
+    """Scripts that start Python with the given arguments."""
+    folder.mkdir(exist_ok=True)
+    for name, arguments in programs.items():
+        (folder / name).write_text(f'#!/bin/sh\nexec "{sys.executable}" {arguments} "$@"\n')
+        (folder / name).chmod(0o755)
+
+
+@contextmanager
+def served(folder: Path, **more: str) -> Iterator[None]:
+    """`curvcli` in a folder of programs, as fast as a call. more: environment of the server."""
+    address = folder / "socket"
+    provide(folder, curvcli=f'-S -I "{SERVER}" "{address}" --ask')
+    command = [sys.executable, SERVER, address]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment(**more)) as server:
+        assert server.stdout is not None
+        assert server.stdout.readline() == b"ready\n"
+        try:
+            yield
+        finally:
+            server.terminate()
+
+
+def shell(code: str, folder: Path, programs: Path, **more: str) -> None:
+    """Run commands in a folder, in one shell; a command that fails fails the test."""
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", code],
+        cwd=folder,
+        env=environment(PATH=f"{programs}{os.pathsep}{environment()['PATH']}", **more),
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, f"{code}\n{done.stdout}\n{done.stderr}"

@@ -1,0 +1,111 @@
+"""curvcli as a server that forks: pages with many commands wait for one start of Python instead of one for each.
+
+`python server.py SOCKET` imports what commands use and serves; `python server.py SOCKET --ask ARGUMENT...` runs one
+command with the streams, the folder and the environment of whoever asks, and ends with its exit code.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import socket
+import sys
+import traceback
+
+# What a command imports; no threads are started by importing these, so that a fork is whole.
+MODULES = (
+    *("trimesh", "polars", "scipy.sparse.csgraph", "rich.console", "rich.table", "msgspec", "cmap"),
+    *("curvcli.analysis", "curvcli.gate", "curvcli.differences", "curvcli.tables", "curvcli.curves", "curvcli.maps"),
+    *("curvcli.report.model", "curvcli.report.text", "curvcli.output.write", "curvcli.samples"),
+    *(f"curvcli.commands.{name}" for name in ("analyze", "batch", "check", "compare", "curves", "passes", "sample")),
+)
+
+
+def ask(address: str, arguments: list[str]) -> int:
+    """Have a command run; its exit code."""
+    with socket.socket(socket.AF_UNIX) as line:
+        line.connect(address)
+        order = json.dumps([arguments, os.getcwd(), dict(os.environ)]).encode()
+        socket.send_fds(line, [len(order).to_bytes(8, "big")], [0, 1, 2])
+        line.sendall(order)
+        return int(line.makefile().read())
+
+
+def serve(address: str) -> None:
+    """Answer until the process is ended; each command runs in a child."""
+    from importlib import import_module
+
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    for name in MODULES:
+        import_module(name)
+    from curvcli.pipeline import load_passes
+
+    load_passes()
+    with contextlib.suppress(FileNotFoundError):
+        os.unlink(address)  # of a server that has ended
+    with socket.socket(socket.AF_UNIX) as door:
+        door.bind(address)
+        door.listen()
+        print("ready", flush=True)
+        while True:
+            line, _ = door.accept()
+            if os.fork() == 0:
+                if os.fork():  # the grandchild is nobody's zombie
+                    os._exit(0)
+                door.close()
+                answer(line)
+                os._exit(0)
+            os.wait()
+            line.close()
+
+
+def answer(line: socket.socket) -> None:
+    """Run the command that was ordered in a child, and tell its exit code."""
+    size, streams, _, _ = socket.recv_fds(line, 8, 3)
+    order = b""
+    while len(order) < int.from_bytes(size, "big"):
+        order += line.recv(1 << 16)
+    arguments, folder, environment = json.loads(order)
+    child = os.fork()
+    if child == 0:
+        line.close()
+        for number, stream in enumerate(streams):
+            os.dup2(stream, number)
+            os.close(stream)
+        # Streams remember what they were opened on.
+        sys.stdin = os.fdopen(0, closefd=False)
+        sys.stdout = os.fdopen(1, "w", encoding="utf-8", closefd=False)
+        sys.stderr = os.fdopen(2, "w", 1, encoding="utf-8", errors="backslashreplace", closefd=False)
+        os.chdir(folder)
+        os.environ.clear()
+        os.environ.update(environment)
+        sys.argv = ["curvcli", *arguments]
+        run()
+    for stream in streams:
+        os.close(stream)
+    _, status = os.waitpid(child, 0)
+    line.sendall(str(os.waitstatus_to_exitcode(status)).encode())
+
+
+def run() -> None:
+    """What `curvcli` does."""
+    from curvcli.commands.main import main
+
+    code = 70
+    try:
+        main()
+    except SystemExit as end:
+        code = int(end.code or 0)
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+
+
+if __name__ == "__main__":
+    if sys.argv[2:3] == ["--ask"]:
+        sys.exit(ask(sys.argv[1], sys.argv[3:]))
+    serve(sys.argv[1])

@@ -1,0 +1,106 @@
+"""Every block of code in the documentation runs as written, or says above itself why it cannot."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from tests.docs.pages import NAMES, ROOT, Block, blocks
+from tests.docs.programs import provide, served, shell
+
+RUN = ("sh", "python")
+SHOWN = ("text", "yaml", "toml", "json", "make", "snakemake", "dockerfile", "csv")
+
+# `test_add_a_pass.py` follows this page on a copy of the project.
+FOLLOWED = "docs/add-a-pass.md"
+
+# What a README installs, the continuous integration installs in an empty environment: see `.ci/run`.
+INSTALLS = "pip install"
+
+
+def runnable(name: str) -> list[Block]:
+    """The blocks of a page that are to run."""
+    return [
+        block
+        for block in blocks(name)
+        if block.language in RUN and not block.reason and not (name == "README.md" and INSTALLS in block.code)
+        if name != FOLLOWED
+    ]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_block_says_what_it_is(name: str) -> None:
+    for block in blocks(name):
+        assert block.language in (*RUN, *SHOWN), f"{name}:{block.line}: {block.language!r}"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_blocks_of_data_can_be_read(name: str) -> None:
+    readers = {"yaml": yaml.safe_load, "toml": tomllib.loads, "json": json.loads}
+    for block in blocks(name):
+        if block.language in readers:
+            readers[block.language](block.code)
+
+
+# ---------------------------------------------------------------------------- blocks that run
+
+
+@pytest.fixture(scope="module")
+def programs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A folder with `curvcli` and `python`."""
+    folder = tmp_path_factory.mktemp("bin")
+    provide(folder, python="")
+    with served(folder):
+        yield folder
+
+
+@pytest.fixture(scope="module")
+def stage(tmp_path_factory: pytest.TempPathFactory, programs: Path) -> Path:
+    """A folder with the files that pages speak of."""
+    folder = tmp_path_factory.mktemp("stage")
+    samples = folder / "sample_meshes"
+    shutil.copytree(ROOT / "sample_meshes", samples)
+    for given, name in (
+        ("sphere.obj", "bunny.obj"),
+        ("sphere.ply", "bunny.ply"),
+        ("cube.stl", "part.stl"),
+        ("sphere.ply", "scans/a.ply"),
+        ("torus.ply", "scans/more/b.ply"),
+        ("sphere.ply", "cortex.ply"),
+        ("sphere.obj", "flattened.obj"),
+        ("sphere.ply", "vesicle.ply"),
+    ):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(samples / given, folder / name)
+    faces = int((samples / "sphere.ply").read_bytes().split(b"element face ")[1].split()[0])
+    (folder / "parcels.csv").write_text("region\n" + "".join(f"{face % 3}\n" for face in range(faces)))
+    (folder / "knot.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nl 1 2 3 4 1\n")
+    shell("curvcli analyze bunny.obj -q -o baseline.json", folder, programs)
+    return folder
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if runnable(name)])
+def test_blocks_run(name: str, stage: Path, programs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the order of the page, beside the sample meshes; shells and Python share a folder."""
+    folder = tmp_path / "page"
+    shutil.copytree(stage, folder)
+    monkeypatch.chdir(folder)
+    names: dict[str, Any] = {"__name__": "page"}
+    waiting: list[str] = []
+    for block in [*runnable(name), None]:
+        if block is not None and block.language == "sh":
+            waiting.append(block.code)
+            continue
+        if waiting:
+            shell("\n".join(waiting), folder, programs)
+            waiting = []
+        if block is not None:
+            code = "\n" * (block.line - 1) + block.code
+            exec(compile(code, str(ROOT / name), "exec"), names)
