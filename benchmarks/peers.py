@@ -72,6 +72,11 @@ def pymeshlab(points: Floats, faces: Faces) -> Computed:
 
     meshes = pymeshlab.MeshSet()
     meshes.add_mesh(pymeshlab.Mesh(points, faces))
+    return discrete_curvatures(meshes)
+
+
+def discrete_curvatures(meshes: Any) -> Computed:
+    """Gaussian and mean curvature of the current mesh of a pymeshlab.MeshSet."""
     found = {}
     for key, kind in (("pointwise", "Gaussian Curvature"), ("H", "Mean Curvature")):
         meshes.compute_scalar_by_discrete_curvature_per_vertex(curvaturetype=kind)
@@ -110,11 +115,19 @@ COMPUTE: dict[str, Callable[[Floats, Faces], Computed]] = {
 # ---------------------------------------------------------------- reading
 
 
+def read_file_libigl(path: str) -> tuple[Floats, Faces]:
+    """read_triangle_mesh."""
+    import igl
+
+    points, faces = igl.read_triangle_mesh(path)
+    return points, faces
+
+
 def read_libigl(path: str) -> tuple[Floats, Faces]:
     """read_triangle_mesh; STL merged exactly."""
     import igl
 
-    points, faces = igl.read_triangle_mesh(path)
+    points, faces = read_file_libigl(path)
     if path.endswith(".stl"):
         points, _, _, faces = igl.remove_duplicate_vertices(points, faces, 0.0)
     return points, faces

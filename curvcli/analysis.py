@@ -310,7 +310,7 @@ def analyze(
     for option, value, known in options:
         if value not in known:
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
-    found = as_surface(surface, orient=orient, weld=weld)
+    found = as_surface(surface, orient=orient, weld=weld, normals=normals)
     named = regions if regions is None or isinstance(regions, str) else "array"
     weld = found.file.weld if found.file else "none"
     conventions = Conventions(mean, area, found.orient, weld, unit, named, *told(chosen, settings))
@@ -320,10 +320,15 @@ def analyze(
 
 
 def choose(passes: str | Iterable[str] | None, settings: Settings, scaled: bool) -> list[str]:
-    """The columns of an analysis: those named, or `core`, with `estimates` where a scale is asked for."""
+    """The columns of an analysis: those named, or `core`, with `estimates` where a scale is asked for.
+
+    A name may say at which of several scales: `K_fit@2e`.
+    """
     if passes is None:
         passes = ("core", "estimates") if scaled else "core"
-    return at_scales(resolve([passes] if isinstance(passes, str) else passes), settings)
+    names = [passes] if isinstance(passes, str) else list(passes)
+    at_one = [name for name in names if AT_SCALE in name]
+    return list(dict.fromkeys([*at_scales(resolve(name for name in names if AT_SCALE not in name), settings), *at_one]))
 
 
 def told(chosen: Iterable[str], settings: Settings) -> tuple[str | None, str | None]:

@@ -14,11 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .analysis import Analysis
-from .declare import Quantity
+from .declare import Quantity, passes
 from .errors import UsageError
+from .pipeline import at_scales
 from .report.check import number
 from .report.quantities import public
 from .report.statistics import statistics
+from .settings import Scale, Settings
 
 STATISTICS = ("min", "max", "absmax", "mean", "area_mean", "sum", "p02", "p98")
 
@@ -102,17 +104,24 @@ class Assertion:
         return f" at {self.quantity.on} {name}"
 
 
-def columns() -> dict[str, Quantity]:
+def columns(scales: tuple[Scale, ...] = ()) -> dict[str, Quantity]:
     """Every scalar column by its name; where two elements share one, the vertices' comes first."""
     found: dict[str, Quantity] = {}
-    for quantity in public():
+    for quantity in _at(scales):
         alone = () if quantity.vector else (quantity.name,)
         for column in (*quantity.columns, *alone, *(f"{quantity.name}_{x}" for x in "xyz" if quantity.vector)):
             found.setdefault(column, quantity)
     return found
 
 
-def parse(text: str) -> Assertion:
+def _at(scales: tuple[Scale, ...]) -> list[Quantity]:
+    """All public quantities, those that depend on the scale at each of several."""
+    if len(scales) < 2:
+        return public()
+    return [passes.quantity(name) for name in at_scales((q.name for q in public()), Settings(scales))]
+
+
+def parse(text: str, scales: tuple[Scale, ...] = ()) -> Assertion:
     """An assertion from `STAT(COLUMN) OP NUMBER`.
 
     Errors: UsageError that names the part which does not fit, with the nearest names.
@@ -126,15 +135,15 @@ def parse(text: str) -> Assertion:
         raise UsageError(f"assertion {text!r}: no comparison {comparison!r}, expected one of {' '.join(OPERATORS)}")
     if not _NUMBER.fullmatch(bound) or not math.isfinite(float(bound)):
         raise UsageError(f"assertion {text!r}: {bound!r} is not a number that a double holds")
-    quantity = _quantity(text, column)
+    quantity = _quantity(text, column, scales)
     if statistic == "area_mean" and quantity.on == "edge":
         raise UsageError(f"assertion {text!r}: edges have no area to weigh {column} by; use mean")
     return Assertion(statistic, quantity, column, comparison, float(bound))
 
 
-def _quantity(text: str, column: str) -> Quantity:
-    known = columns()
-    vectors = {stem: q for q in reversed(public()) if q.vector for stem in (q.name, q.stem)}
+def _quantity(text: str, column: str, scales: tuple[Scale, ...]) -> Quantity:
+    known = columns(scales)
+    vectors = {stem: q for q in reversed(_at(scales)) if q.vector for stem in (q.name, q.stem)}
     if column in vectors:
         components = ", ".join(f"{column}_{axis}" for axis in "xyz")
         raise UsageError(f"assertion {text!r}: {column} is a vector; name one of its components {components}")

@@ -134,7 +134,7 @@ def _numbers(value: Any) -> list[float] | None:
 
 def leaves(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
     """Every value of a report that is compared, with what a move of it is measured against."""
-    for name in ("mean", "area", "orient", "unit", "regions"):
+    for name in ("mean", "area", "orient", "unit", "regions", "scale", "normals"):
         yield ("conventions", name), Leaf(report["conventions"].get(name))
     flatness = _flattest(report)
     yield from _piece(report, (), flatness)

@@ -25,8 +25,9 @@ from .report.check import (
     Rule,
     printable,
 )
-from .report.model import Remark, Value
+from .report.model import CONVENTIONS, Remark, Value
 from .requirements import Requirement
+from .settings import Scale
 
 READABLE = "The mesh can be read and is a surface"
 
@@ -55,10 +56,16 @@ class Plan:
         ]
 
 
-def plan(require: Iterable[str] = (), allow: Iterable[str] = (), asserted: Iterable[str] = ()) -> Plan:
+def plan(
+    require: Iterable[str] = (),
+    allow: Iterable[str] = (),
+    asserted: Iterable[str] = (),
+    scales: tuple[Scale, ...] = (),
+) -> Plan:
     """Every identity and the default requirements, plus `require` and `asserted`, without what is allowed to fail.
 
-    require, allow: names or comma lists of names. asserted: `STAT(COLUMN) OP NUMBER`.
+    require, allow: names or comma lists of names. asserted: `STAT(COLUMN) OP NUMBER`. scales: at which estimates are
+    made; of several, each has columns of its own.
     Errors: UsageError for an unknown name, with the nearest.
     """
     load_passes()  # plug-ins may bring identities of their own
@@ -71,7 +78,7 @@ def plan(require: Iterable[str] = (), allow: Iterable[str] = (), asserted: Itera
     return Plan(
         tuple(name for name in rules if name not in allowed),
         tuple(one for one in wanted if one.kind.name not in allowed),
-        tuple(dict.fromkeys(assertions.parse(text) for text in asserted)),
+        tuple(dict.fromkeys(assertions.parse(text, scales) for text in asserted)),
     )
 
 
@@ -90,7 +97,7 @@ def judge(analysis: Analysis, chosen: Plan, path: str) -> CheckedMesh:
         file.sha256 if file is not None else None,
         FAIL if failed else PASS,
         1 if failed else 0,
-        {key: getattr(conventions, key) for key in ("mean", "area", "orient", "weld", "unit", "regions")},
+        {key: getattr(conventions, key) for key in CONVENTIONS},
         outcomes,
         [Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
     )

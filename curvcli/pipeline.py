@@ -40,7 +40,7 @@ def resolve(names: Iterable[str]) -> list[str]:
         "topology": ["status", "degree"],
         "core": CORE,
         "paper": [q.name for q in public.values() if q.source.startswith("Sullivan")],
-        "estimates": [name for name in public if passes.depends_on_scale(name)],
+        "estimates": [q.name for q in public.values() if q.kind == "density" and passes.depends_on_scale(q.name)],
         "all": list(public),
     }
     stems = {column: q.name for q in reversed(public.values()) for column in (q.stem, *q.columns)}

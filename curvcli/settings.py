@@ -77,6 +77,14 @@ def parse_scales(ring_counts: str | int | None, radii: str | float | None) -> tu
     return tuple(dict.fromkeys(found))
 
 
+def options_of(names: str) -> dict[str, str | None]:
+    """The options `rings` and `radius` that give the scales of a comma list of their names."""
+    each = [name.strip() for name in names.split(",")]
+    counts = [name.removesuffix("rings") for name in each if name.endswith("rings")]
+    radii = [name.removeprefix("r") for name in each if not name.endswith("rings")]
+    return {"rings": ",".join(counts) or None, "radius": ",".join(radii) or None}
+
+
 def _entries(value: str | float | None) -> Iterable[str]:
     return () if value is None else str(value).split(",")
 

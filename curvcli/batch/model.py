@@ -38,6 +38,9 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
     weld: str | float = "auto"
     unit: str | None = None
     regions: str | None = None
+    rings: str | None = None
+    radius: str | None = None
+    normals: str = "mesh"
     input_format: str | None = None
     max_faces: int | None = None
     max_bytes: int | None = None

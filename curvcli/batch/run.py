@@ -53,7 +53,8 @@ def _analysed(item: Item, settings: Settings) -> Analysis:
         surface = _surface(item, settings)
     with _timed(timings, "compute"):
         conventions: dict[str, Any] = {
-            key: getattr(settings, key) for key in ("area", "mean", "orient", "weld", "unit", "regions")
+            key: getattr(settings, key)
+            for key in ("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals")
         }
         analysis = analyze(surface, settings.passes, **conventions)
     with _timed(timings, "check"):
@@ -64,7 +65,7 @@ def _analysed(item: Item, settings: Settings) -> Analysis:
 
 def _surface(item: Item, settings: Settings) -> Surface:
     """The surface of a file or of what a URL leads to; messages name it as the user did."""
-    asked: dict[str, Any] = {key: getattr(settings, key) for key in ("weld", "max_faces", "max_bytes")}
+    asked: dict[str, Any] = {key: getattr(settings, key) for key in ("weld", "normals", "max_faces", "max_bytes")}
     wanted = settings.input_format
     try:
         if item.content is None and not is_url(item.place):

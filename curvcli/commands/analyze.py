@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 @options.passes
 @options.regions
 @options.reading
+@options.estimating
 @click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of the report and stop.")
@@ -101,12 +102,11 @@ class Run:
     ) -> None:
         from ..output.formats import format_of
         from ..output.write import check_appearance
-        from ..pipeline import resolve
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
         self.weld = options.welding(weld)
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
-        self.passes = resolve(passes or ("core",))
+        self.passes, at_scale = options.chosen(passes, conventions)
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
         self.stream_format = stream_format
         self.appearance: Appearance = options.appearance(conventions, precision)
@@ -118,7 +118,7 @@ class Run:
             format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
             for path in self.paths[0]
         ]
-        check_appearance(self.appearance, self.passes, [one.suffix for one in formats])
+        check_appearance(self.appearance, at_scale, [one.suffix for one in formats])
         for kind, path in self.tables[0]:
             format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
             if kind == "regions" and conventions["regions"] is None:
@@ -173,7 +173,8 @@ class Run:
 
         with phase(f"reading {mesh}", self.quiet) as reading:
             source = sys.stdin.buffer if mesh == "-" else mesh
-            surface = load(source, weld=self.weld, orient=self.conventions["orient"], **self.limits)
+            asked = {key: self.conventions[key] for key in ("orient", "normals")}
+            surface = load(source, weld=self.weld, **asked, **self.limits)
         with phase(f"computing {mesh}", self.quiet) as computing:
             analysis = analyze(surface, self.passes, weld=self.weld, **self.conventions)
         with phase(f"checking {mesh}", self.quiet) as checking:

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 @options.passes
 @click.option("--regions", metavar="groups|objects|materials|PROPERTY", help="Labels of faces within each mesh.")
 @options.reading
+@options.estimating
 @options.drawing
 @click.option("--force", is_flag=True, help="Begin anew in a DIR that is not empty; what is written is replaced.")
 @options.strict
@@ -94,7 +95,6 @@ def run(
     from ..batch.model import Limits, Settings
     from ..batch.plan import plan, saves
     from ..output.write import check_appearance
-    from ..pipeline import resolve
     from .main import worst
 
     if resume and force:
@@ -102,12 +102,12 @@ def run(
     if max_memory is not None and not sys.platform.startswith("linux"):
         raise UsageError("--max-memory: only Linux bounds the memory of a process")
     wanted = saves(save)
-    chosen = tuple(resolve(passes or ("core",)))
+    chosen, at_scale = options.chosen(passes, conventions)
     if any(one.startswith("regions.") for one in wanted) and conventions["regions"] is None:
         raise UsageError("--save regions: there are none without --regions")
     appearance = options.appearance(conventions)
-    check_appearance(appearance, list(chosen), [f".{one}" for one in wanted])
-    how = Settings(passes=chosen, save=wanted, weld=options.welding(weld), appearance=appearance, **conventions)
+    check_appearance(appearance, at_scale, [f".{one}" for one in wanted])
+    how = Settings(passes=tuple(chosen), save=wanted, weld=options.welding(weld), appearance=appearance, **conventions)
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
     items = plan(patterns, files_from, folder, wanted)
     # A scheduler that does not answer leaves no folder behind.

@@ -48,6 +48,7 @@ _TOLD = 20
 )
 @options.regions
 @options.reading
+@options.estimating
 @click.option(
     "--format",
     "report_format",
@@ -102,13 +103,15 @@ class Run:
         **conventions: Any,
     ) -> None:
         from ..gate import plan
+        from ..settings import parse_scales
 
         self.meshes, self.conventions = meshes, conventions
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
         self.weld = options.welding(weld)
         self.output, self.force, self.quiet, self.verbose = output, force, quiet, verbose
         self.format = report_format or _SUFFIXES.get(os.path.splitext(output)[1].lower(), "text")
-        self.plan = plan(require, allow, asserted)
+        scales = parse_scales(conventions["rings"], conventions["radius"])
+        self.plan = plan(require, allow, asserted, scales)
 
     def all(self) -> int:
         """Check every mesh, write the report; the exit code."""
@@ -156,7 +159,8 @@ class Run:
 
         with phase(f"reading {mesh}", self.quiet):
             source = sys.stdin.buffer if mesh == "-" else mesh
-            surface = load(source, weld=self.weld, orient=self.conventions["orient"], **self.limits)
+            asked = {key: self.conventions[key] for key in ("orient", "normals")}
+            surface = load(source, weld=self.weld, **asked, **self.limits)
         with phase(f"checking {mesh}", self.quiet):
             analysis = analyze(
                 surface,

@@ -149,9 +149,12 @@ def _made_with(side: Read) -> dict[str, Any]:
     """The passes and conventions that make a mesh's report or table comparable with this one."""
     from ..declare import passes
     from ..pipeline import load_passes
+    from ..settings import options_of
 
     load_passes()
     columns = {column: q.name for q in passes.quantities("vertex") for column in q.columns}
+    scales = (side.report or {}).get("conventions", {}).get("scale") or ""
+    columns |= {f"{column}_{scale}": name for column, name in columns.items() for scale in scales.split(",")}
     if side.report is None:
         return {"passes": tuple(dict.fromkeys(columns[name] for name in side.cells or () if name in columns))}
     # Totals of vertex columns may stem from what other columns need; chosen, they would add columns.
@@ -160,6 +163,10 @@ def _made_with(side: Read) -> dict[str, Any]:
     names += [totals[name] for name in side.report["totals"] if name in totals]
     made: dict[str, Any] = {key: side.report["conventions"].get(key) for key in ("mean", "area", "orient", "unit")}
     made = {key: value for key, value in made.items() if value is not None or key == "unit"}
+    if side.report["conventions"].get("scale") is not None:
+        made |= options_of(side.report["conventions"]["scale"])
+    if side.report["conventions"].get("normals") is not None:
+        made["normals"] = side.report["conventions"]["normals"]
     if side.report["conventions"].get("weld") not in (None, "none"):
         made["weld"] = options.welding(side.report["conventions"]["weld"])
     if side.report["conventions"].get("regions") not in (None, "array"):
@@ -178,7 +185,8 @@ def _analysed(path: str, conventions: Mapping[str, Any], limits: dict[str, Any],
     names = settings.pop("passes")
     with phase(f"reading {path}", quiet):
         source = sys.stdin.buffer if path == "-" else path
-        surface = load(source, weld=settings["weld"], orient=settings["orient"], **limits)
+        asked = {key: settings[key] for key in ("weld", "orient", "normals") if key in settings}
+        surface = load(source, **asked, **limits)
     with phase(f"computing {path}", quiet):
         analysis = analyze(surface, names or ("core",), **settings)
         report = analysis.report()

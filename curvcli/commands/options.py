@@ -49,7 +49,8 @@ passes = click.option(
     "passes",
     metavar="NAME[,NAME]",
     multiple=True,
-    help="Columns to compute, or a preset: topology, core (default), paper, all. `curvcli passes` lists them.",
+    help="Columns to compute, or a preset: topology, core (default), paper, estimates, all. `curvcli passes` lists "
+    "them.",
 )
 area = click.option(
     "--area",
@@ -104,6 +105,27 @@ def together(*options: Decorator) -> Decorator:
     return decorate
 
 
+estimating = together(
+    click.option(
+        "--rings",
+        metavar="N[,N]",
+        help="How far estimates (K_ring, K_corrected, K_fit and so on) look, in rings of edges; several give one "
+        "column for each.  [default: 2]",
+    ),
+    click.option(
+        "--radius",
+        metavar="R[,R]",
+        help="The same as a radius: a length, or mean edge lengths such as 3e. With --rings or --radius and without "
+        "-p, the preset estimates is added to core.",
+    ),
+    click.option(
+        "--normals",
+        type=click.Choice(["mesh", "file"]),
+        default="mesh",
+        show_default=True,
+        help="Normals that corrected curvatures use: of the triangles, or those in the file (nx ny nz, vn).",
+    ),
+)
 drawing = together(
     click.option(
         "--color-by",
@@ -153,6 +175,19 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
     cmap, value_range, quality = (settings.pop(key) for key in ("cmap", "value_range", "quality"))
     look = Look(view, up, parse_size(size), background, edges)
     return Appearance(columns, cmap, value_range, precision, quality, look)
+
+
+def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str], list[str]]:
+    """The columns asked for by -p and the options of `estimating`, by their names, and these at each scale.
+
+    Errors: UsageError for an unknown name or a scale that is none.
+    """
+    from ..pipeline import at_scales, resolve
+    from ..settings import DEFAULTS, Settings, parse_scales
+
+    scales = parse_scales(settings["rings"], settings["radius"])
+    names = resolve(passes or (("core", "estimates") if scales else ("core",)))
+    return names, at_scales(names, Settings(scales or DEFAULTS.scales))
 
 
 def welding(text: str) -> str | float:

@@ -69,7 +69,8 @@ def _of_file(surface: Surface) -> VectorColumn:
     given = None if surface.file is None else surface.file.vertex_normals
     if given is None:
         raise InputError(
-            "the file has no normals at its vertices, expected PLY properties nx, ny, nz or OBJ vn records",
+            "no normals at the vertices, expected properties nx, ny, nz (PLY) or vn records (OBJ)",
+            path=surface.file.path if surface.file is not None else None,
             hint="--normals mesh takes them from the triangles",
         )
     return _unit(np.asarray(given, np.float64))

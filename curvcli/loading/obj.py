@@ -15,6 +15,7 @@ from ..plurals import agree
 from .limits import check_faces
 from .model import Labels, MeshFile
 from .obj_lines import ObjLines, split_lines, tidy_lines
+from .obj_normals import corner_normals
 from .text import NEWLINE, Records, Untidy, plain_lines
 
 _LABELS = {b"g": "groups", b"o": "objects", b"usemtl": "materials"}
@@ -25,27 +26,28 @@ _IGNORED = frozenset(
 )
 
 
-def parse_obj(data: bytes, *, max_faces: int | None = None) -> MeshFile:
+def parse_obj(data: bytes, *, max_faces: int | None = None, normals: bool = False) -> MeshFile:
     """The content of an OBJ file.
 
     Negative indices count back from the record they stand in. Vertex colours (`v x y z r g b`) become the properties
-    `red`, `green`, `blue`; a rational weight `w` is ignored and counted.
+    `red`, `green`, `blue`; a rational weight `w` is ignored and counted. normals: read the `vn` records too.
     Errors: InputError with the line of a record that cannot be read or of an index that is out of range.
     """
     text = plain_lines(data)
     try:
-        return _read(split_lines(text), max_faces)
+        return _read(split_lines(text), max_faces, normals)
     except Untidy:
-        return _read(tidy_lines(text), max_faces)
+        return _read(tidy_lines(text), max_faces, normals)
 
 
-def _read(lines: ObjLines, max_faces: int | None) -> MeshFile:
+def _read(lines: ObjLines, max_faces: int | None, normals: bool) -> MeshFile:
     is_v, is_f, is_l = lines.of("v"), lines.of("f"), lines.of("l")
     check_faces(int(np.count_nonzero(is_f)), max_faces)
     notices: list[Notice] = []
     labels = _statements(lines, is_v | is_f | is_l, notices)
     xyz, colours = _vertices(lines, is_v, notices)
     corners, sizes = _corners(lines, is_f, is_v)
+    given = corner_normals(lines, is_f, corners, xyz.shape[1]) if normals else None
     count = int(np.count_nonzero(is_f))
     keep = sizes >= 3 if isinstance(sizes, np.ndarray) else np.full(count, sizes >= 3)
     if not keep.all():
@@ -67,6 +69,7 @@ def _read(lines: ObjLines, max_faces: int | None) -> MeshFile:
         polygon_labels={kind: _label(before[at], names, keep) for kind, (at, names) in labels.items()},
         polylines=_polylines(lines, is_l, is_v) if is_l.any() else (),
         notices=tuple(notices),
+        corner_normals=given,
     )
 
 

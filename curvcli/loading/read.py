@@ -28,12 +28,13 @@ def read_mesh_file(
     weld: str | float = "auto",
     max_faces: int | None = None,
     max_bytes: int | None = None,
+    normals: str = "mesh",
 ) -> MeshFile:
     """The content of a mesh file, in file order, with the hash of its bytes.
 
     source: a path, or a binary stream (its path is reported as `-`). input_format: `obj`, `ply` or `stl` instead of
     the suffix. weld: `auto` (exact for STL, none otherwise), `none`, `exact`, or a tolerance relative to the diagonal
-    of the bounding box. max_faces, max_bytes: refuse larger files.
+    of the bounding box. max_faces, max_bytes: refuse larger files. normals: `file` also reads those of an OBJ file.
     Errors: InputError, one line that names the file, the place, what was found and what was expected.
     """
     _check_weld(weld)
@@ -41,7 +42,7 @@ def read_mesh_file(
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(FORMATS)} are")
     path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
     try:
-        mesh = _read(source, path, input_format and input_format.lower(), weld, max_faces, max_bytes)
+        mesh = _read(source, path, input_format and input_format.lower(), weld, max_faces, max_bytes, normals)
     except InputError as error:
         place, hint = error.place and shown(error.place), error.hint and shown(error.hint)
         raise InputError(shown(error.problem), path=shown(path), place=place, hint=hint) from None
@@ -64,6 +65,7 @@ def _read(
     weld: str | float,
     max_faces: int | None,
     max_bytes: int | None,
+    normals: str,
 ) -> MeshFile:
     if isinstance(source, str | bytes | os.PathLike):
         with open_regular(source, max_bytes) as file:
@@ -77,7 +79,7 @@ def _read(
         kind, notices = recognise(data, wanted)
         if len(data) > SMALL:
             pool.submit(_import_polars, len(data))
-        parsed = pool.submit(_parse, data, kind, weld, max_faces)  # while trimesh is imported
+        parsed = pool.submit(_parse, data, kind, weld, max_faces, normals)  # while trimesh is imported
         mesh = _through_trimesh(parsed, kind)
         check_faces(mesh.polygons, max_faces)
         merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
@@ -118,21 +120,21 @@ def _load(file_obj: _Parsed, **_: Any) -> dict[str, Any]:
     return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": file_obj.content.result()}}
 
 
-def _parse(data: bytes, kind: str, weld: str | float, max_faces: int | None) -> MeshFile:
+def _parse(data: bytes, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
     """The content of a file of a known kind, equal positions merged where that is asked for."""
     import numpy as np
 
     from .weld import welded
 
     with np.errstate(invalid="ignore"):  # signalling NaNs; who uses a NaN refuses it
-        return welded(_content(data, kind, weld, max_faces), weld)
+        return welded(_content(data, kind, weld, max_faces, normals), weld)
 
 
-def _content(data: bytes, kind: str, weld: str | float, max_faces: int | None) -> MeshFile:
+def _content(data: bytes, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
     if kind == "obj":
         from .obj import parse_obj
 
-        return parse_obj(data, max_faces=max_faces)
+        return parse_obj(data, max_faces=max_faces, normals=normals == "file")
     if kind == "ply":
         from .ply import parse_ply
 

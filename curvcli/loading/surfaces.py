@@ -20,16 +20,19 @@ def load(
     input_format: str | None = None,
     max_faces: int | None = None,
     max_bytes: int | None = None,
+    normals: Literal["mesh", "file"] = "mesh",
 ) -> Surface:
     """Read an OBJ, PLY or STL file as the surface it describes: rows in file order, seams never cut, nothing repaired.
 
     weld: `auto` (STL by exact position, OBJ and PLY not at all), `none`, `exact`, or a tolerance relative to the
-    diagonal of the bounding box. orient: `outward` turns closed patches of negative volume.
+    diagonal of the bounding box. orient: `outward` turns closed patches of negative volume. normals: `file` also reads
+    the normals of an OBJ file; those of a PLY file are among its properties anyhow.
     Errors: InputError, one line with file, place, expectation and way out.
     """
     from .read import read_mesh_file
 
-    file = read_mesh_file(source, input_format=input_format, weld=weld, max_faces=max_faces, max_bytes=max_bytes)
+    limits = {"max_faces": max_faces, "max_bytes": max_bytes}
+    file = read_mesh_file(source, input_format=input_format, weld=weld, normals=normals, **limits)
     return from_file(file, orient)
 
 
@@ -49,7 +52,13 @@ def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
         raise
 
 
-def as_surface(given: Any, *, orient: Orient | None = None, weld: str | float = "auto") -> Surface:
+def as_surface(
+    given: Any,
+    *,
+    orient: Orient | None = None,
+    weld: str | float = "auto",
+    normals: Literal["mesh", "file"] = "mesh",
+) -> Surface:
     """A Surface from a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays.
 
     orient: None keeps a Surface's own choice and is `file` for the rest.
@@ -68,7 +77,7 @@ def as_surface(given: Any, *, orient: Orient | None = None, weld: str | float = 
         )
     orient = orient or "file"
     if isinstance(given, str | os.PathLike) or hasattr(given, "read"):
-        return load(given, orient=orient, weld=weld)
+        return load(given, orient=orient, weld=weld, normals=normals)
     if hasattr(given, "vertices") and hasattr(given, "faces"):
         return Surface(given.vertices, given.faces, orient=orient)
     if isinstance(given, tuple) and len(given) == 2:

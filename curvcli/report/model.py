@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 Value = float | list[float | None] | None
 
-_CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals")
+# Of the analysis, in the order of the report.
+CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals")
 
 
 class Input(msgspec.Struct):
@@ -190,7 +191,7 @@ def model(analysis: Analysis) -> Report:
             vertices=surface.n_vertices,
             polygons=file.polygons if file else surface.n_faces,
         ),
-        conventions={key: getattr(conventions, key) for key in _CONVENTIONS},
+        conventions={key: getattr(conventions, key) for key in CONVENTIONS},
         topology=whole.topology,
         totals=whole.totals,
         steiner=whole.steiner,

@@ -1,0 +1,181 @@
+"""`python -m benchmarks.validation`: measure, and write docs/validation.md with its pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import click
+import numpy as np
+
+import curvcli
+from curvcli.samples import get
+
+from . import agreement, convergence, plots
+from .convergence import ROUNDING, SIZES, Course
+from .surfaces import SURFACES
+
+ROOT = Path(__file__).parent.parent.parent
+
+INTRODUCTION = """# Validation
+
+How near the columns are to what is known: to the curvatures of smooth surfaces, to arithmetic in 50 digits, and to
+other programs. Made by
+
+```sh title="Not run by the tests: takes minutes"
+pip install '.[test,bench]' && python -m benchmarks.validation
+```
+
+with curvcli {version}{others}. Identities are not on this page: they hold to rounding on every mesh, and every report
+shows it.
+"""
+
+CONVERGENCE = """## Convergence
+
+Each surface in two triangulations of about {sizes} vertices: a regular one, and one through random points, uniform by
+area, joined by Delaunay's rule: triangles of every shape, the harshest of usual meshes. *largest* and *mean* are the
+largest and the root mean square error over the inner vertices of the finest mesh, as parts of the largest curvature of
+the surface (its square for K); *order* is the slope of the error over the mean edge length between all sizes: 2 means a
+quarter of the error for half the edge, 0 or less that there is no convergence, – that only rounding is left.
+
+What to read from it:
+
+* Where the triangulation is a smooth image of a grid (torus, catenoid, unduloid), everything is of second order.
+* The sphere and the ellipsoid made of an icosahedron have twelve vertices of degree 5. There a third of the star's area
+  is not the area that belongs to the vertex: the largest error of what divides by it stays, and the mean falls with the
+  share of those vertices. `--area mixed` or `voronoi` mends it for `K_density`.
+* On random triangulations what a single star says about a point does not converge, here or in any other program,
+  except `K_density` by Voronoi cells on the sphere: the star shrinks, but it does not become rounder. That is no
+  contradiction to exactness: `K`, `H_vec` and `A_vec` keep their sums, and sums over pieces of fixed size converge, as
+  `area` and `H_theta` do in the second tables; the Willmore energies, sums of squares, do not.
+* The corrected columns look at more than one star and take a normal at each vertex; they converge on both. On spheres
+  they are exact where those normals are.
+"""
+
+EXACT = """## Exact arithmetic
+
+`tests/exact` holds twelve small meshes (closed and open, regular and not, one-sided, one far from the origin) with
+every quantity in 50-digit arithmetic from the coordinates as read. *error* is the largest difference over all twelve as
+a part of the column's largest value, absolute for angles; a double has 16 digits. Left out are quotients by the mean
+curvature of the minimal surface, which is 0 there but for rounding.
+
+| column of | column | error | digits | worst on |
+|---|---|---|---|---|
+"""
+
+EVOLVER = """## The Surface Evolver
+
+K. Brakke's program has the energies built in. Totals on eight bodies of genus 0, 1 and 2, regular, irregular and
+jittered; its mean curvature is the average, hence the factors. `tests/evolver` compares every vertex as well.
+
+| its method | ours | largest relative difference |
+|---|---|---|
+"""
+
+LIBRARIES = """## libigl and VTK
+
+On an irregular ellipsoid (closed) and a jittered cap (open); differences as parts of the column's largest value.
+
+| theirs | ours | inside | boundary | why |
+|---|---|---|---|---|
+"""
+
+VTK = """
+VTK's mean curvature takes at each edge three times the dihedral angle times its length over the area of its two faces,
+and at each vertex half the mean of that over its edges. On a regular triangulation that is the mean curvature;
+elsewhere it weighs short and long edges alike, and the tables above show how far off it is.
+"""
+
+
+def number(value: float) -> str:
+    """An error for a table."""
+    return f"{value:.1e}" if value >= ROUNDING else "rounding"
+
+
+def slope(course: Course, errors: list[float]) -> str:
+    """An order for a table."""
+    order = course.order(errors)
+    return "–" if np.isnan(order) else f"{order + 0.0:.1f}"
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table."""
+    lines = [f"| {' | '.join(header)} |", "|---" * len(header) + "|"]
+    return "\n".join([*lines, *(f"| {' | '.join(row)} |" for row in rows)]) + "\n"
+
+
+def one_surface(name: str, folder: Path, sizes: tuple[int, ...]) -> str:
+    """The part of one surface, and its picture."""
+    courses = {kind: convergence.converge(name, kind, sizes) for kind in SURFACES[name]}
+    plots.draw(folder / "validation" / f"{name}.png", name, courses)
+    header = ["density", *(f"{kind}: {what}" for kind in courses for what in ("largest", "order", "mean", "order"))]
+    rows = []
+    for row in next(iter(courses.values())):
+        cells = [(row if " " in row else f"`{row}`").replace("|", r"\|")]
+        for each in courses.values():
+            course = each[row]
+            for errors in (course.largest, course.mean):
+                cells += [number(errors[-1]), slope(course, errors)]
+        rows.append(cells)
+    known = get({"sphere": "icosphere"}.get(name, name))(**({"periods": 1} if name == "unduloid" else {})).limit
+    sums = {kind: convergence.integrals(name, kind, known, sizes) for kind in courses}
+    totals = []
+    for total in next(iter(sums.values())):
+        cells = [f"`{total}`"]
+        for each in sums.values():
+            course = each[total]
+            cells += [number(course.mean[-1]), slope(course, course.mean)]
+        totals.append(cells)
+    return "\n".join(
+        [
+            f"### {name.capitalize()}\n",
+            f"![Errors on the {name}](validation/{name}.png)\n",
+            table(header, rows),
+            table(["total", *(f"{kind}: {what}" for kind in sums for what in ("error", "order"))], totals),
+        ]
+    )
+
+
+def page(folder: Path, sizes: tuple[int, ...] = SIZES) -> str:
+    """The whole page; pictures go to `validation` in the folder."""
+    others = []
+    for distribution, title in (("libigl", "libigl"), ("vtk", "VTK")):
+        try:
+            others.append(f"{title} {version(distribution)}")
+        except PackageNotFoundError:
+            click.echo(f"{title} is not installed and left out", err=True)
+    parts = [INTRODUCTION.format(version=curvcli.__version__, others="".join(f", {other}" for other in others))]
+    parts.append(CONVERGENCE.format(sizes=", ".join(f"{size:,}" for size in sizes)))
+    for name in SURFACES:
+        click.echo(name, err=True)
+        parts.append(one_surface(name, folder, sizes))
+    rows = [
+        (element, f"`{column}`", f"{error:.0e}", agreement.digits(error), worst)
+        for element, column, error, worst in agreement.exact()
+    ]
+    parts.append(EXACT + "\n".join(f"| {' | '.join(row)} |" for row in rows) + "\n")
+    answers = agreement.evolver()
+    if answers is None:
+        click.echo("the Surface Evolver is not installed and left out", err=True)
+    else:
+        lines = [f"| `{method}` | {ours} | {error:.0e} |" for method, ours, error in answers]
+        parts.append(EVOLVER + "\n".join(lines) + "\n")
+    if found := agreement.libraries():
+        lines = [f"| {row.theirs} | {row.ours} | {row.inside} | {row.boundary} | {row.why} |" for row in found]
+        parts.append(LIBRARIES + "\n".join(lines) + "\n" + VTK)
+    return "\n".join(parts)
+
+
+@click.command()
+@click.option("--folder", type=click.Path(path_type=Path), default=ROOT / "docs", help="Folder of the page.")
+@click.option("--quick", is_flag=True, help="Small meshes only, to try it.")
+def main(folder: Path, quick: bool) -> None:
+    """Measure, and write validation.md with its pictures."""
+    folder.mkdir(parents=True, exist_ok=True)
+    text = page(folder, SIZES[:2] if quick else SIZES)
+    (folder / "validation.md").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+"""Errors over edge lengths as pictures, one for each surface."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .convergence import Course
+
+# What a picture shows, as far as it was measured; every row stands in the tables.
+SHOWN = (
+    "h_signed",
+    "K_density",
+    "kappa_1",
+    "h_corrected",
+    "K_corrected",
+    "kappa_1_corrected",
+    "libigl `principal_curvature`, κ₁",
+    "VTK mean, twice",
+)
+
+
+def draw(path: Path, title: str, courses: dict[str, dict[str, Course]]) -> None:
+    """Two panels, regular and irregular: root mean square errors, both axes logarithmic."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import NullLocator
+
+    figure = Figure(figsize=(9, 3.6), layout="constrained")
+    FigureCanvasAgg(figure)
+    panels = figure.subplots(1, len(courses), sharey=True)
+    shown = [name for name in SHOWN if any(name in each for each in courses.values())]
+    for panel, (triangulation, each) in zip(panels, courses.items(), strict=True):
+        for number, name in enumerate(shown):
+            if name in each:
+                style = "o--" if " " in name else "o-"
+                panel.loglog(each[name].edge, each[name].mean, style, color=f"C{number}", markersize=3, label=name)
+        first = next(iter(each.values()))
+        begin = 0.5 * min(course.mean[0] for name, course in each.items() if name in shown)
+        panel.loglog(
+            first.edge, [begin * (edge / first.edge[0]) ** 2 for edge in first.edge], "k:", label="second order"
+        )
+        panel.set_title(f"{title}, {triangulation}", fontsize=10)
+        panel.set_xlabel("mean edge length")
+        panel.set_xticks(first.edge, [f"{edge:.2g}" for edge in first.edge])
+        panel.xaxis.set_minor_locator(NullLocator())
+        panel.grid(True, which="major", alpha=0.3)
+    panels[0].set_ylabel("error / largest curvature")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, [text.replace("`", "") for text in labels], loc="outside right", fontsize=8)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=110, metadata={"Software": None})
