@@ -141,6 +141,7 @@ def cli(config: str | None) -> None:
       curvcli check bunny.obj --require closed       what holds and what fails, as an exit code
       curvcli passes                                 every quantity there is
       curvcli sample torus -o torus.ply              a surface to try it on
+      curvcli help                                   topics: conventions, checks, formats, exit codes
     """
 
 
