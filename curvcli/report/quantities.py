@@ -11,7 +11,7 @@ from rich.table import Table
 
 from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
 from ..errors import UsageError
-from ..pipeline import CORE, in_order, load_passes
+from ..pipeline import in_order, load_passes, resolve
 
 _PLAIN = str.maketrans("", "", "*")
 
@@ -81,8 +81,14 @@ def facts(quantity: Quantity) -> Facts:
         "total": f"totals.{quantity.total}" if quantity.total else None,
         "source": quantity.source,
         "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in needs],
-        "preset": "core" if quantity.name in CORE else "paper" if quantity.source.startswith("Sullivan") else "all",
+        "preset": _preset(quantity),
     }
+
+
+def _preset(quantity: Quantity) -> str:
+    """The smallest preset that has it."""
+    presets = ("core", "paper", "estimates")
+    return next((preset for preset in presets if quantity.name in resolve([preset])), "all")
 
 
 def as_data(name: str | None) -> Any:
@@ -133,26 +139,46 @@ def describe(name: str) -> None:
     Console(highlight=False).print(table)
 
 
+def _reversed(quantity: Quantity) -> str:
+    """What the column becomes when all faces are turned round, where it does not stay."""
+    if quantity.parity == "even" and not quantity.partner:
+        return ""
+    return f"becomes {'−' if quantity.parity == 'odd' else ''}`{quantity.partner or quantity.name}`"
+
+
+_HEADINGS = {"vertex": "Vertices", "edge": "Edges", "face": "Faces"}
+_MEAN = {0: "", 1: "halved", 2: "quartered"}
+
+
 def page() -> str:
     """The documentation page of all quantities, in Markdown."""
     parts = [
         "# Quantities\n",
         "Made by `curvcli passes --markdown`. H = κ₁ + κ₂, positive where the surface is convex seen from the side its "
-        "normal points to. A measure is integrated over the star of a vertex; a density is per area.\n",
+        "normal points to. A measure is integrated over the star of a vertex; a density is per area. Where no face uses "
+        "a vertex, everything but its status is null.\n",
     ]
+    element = ""
     for quantity in public():
+        if quantity.on != element:
+            element = quantity.on
+            parts.append(f"## {_HEADINGS[element]}\n")
         shown = facts(quantity)
-        parts.append(f"## `{quantity.name}` {shown['symbol']}\n")
-        parts.append(f"{shown['description']}\n")
+        columns = ", ".join(f"`{column}`" for column in quantity.columns)
         rows = [
+            ("columns" if quantity.vector else "column", columns if quantity.columns != (quantity.name,) else ""),
             ("formula", shown["formula"]),
-            ("element, kind, unit", f"{shown['on']}, {shown['kind']}, {shown['unit']}"),
+            ("kind, unit", f"{shown['kind']}, {shown['unit']}"),
             ("boundary", shown["boundary"]),
+            ("faces reversed", _reversed(quantity)),
+            ("`--mean average`", _MEAN[quantity.mean_degree]),
             ("preserves", shown["preserves"]),
             ("sum", f"`{shown['total']}`" if shown["total"] else ""),
             ("preset", shown["preset"]),
             ("source", shown["source"]),
             ("needs", ", ".join(shown["needs"])),
         ]
+        parts.append(f"### `{quantity.name}` {shown['symbol']}\n")
+        parts.append(f"{shown['description']}\n")
         parts.append("\n".join(f"* {label}: {value}" for label, value in rows if value) + "\n")
     return "\n".join(parts)
