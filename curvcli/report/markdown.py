@@ -72,7 +72,7 @@ def _statement(name: str) -> str:
 def _warnings(report: Report) -> Iterable[str]:
     for remark in report.warnings:
         first = f" (first: {', '.join(map(str, remark.examples[:3]))})" if remark.examples else ""
-        hint = f". {_text(remark.hint)}" if remark.hint else ""
+        hint = f"; {_text(remark.hint)}" if remark.hint else ""
         yield f"* **{remark.code}**: {remark.count:,} {_text(remark.message)}{first}{hint}"
 
 
@@ -87,13 +87,28 @@ def _folded(summary: str, *parts: str) -> str:
 
 
 def _table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    body = [f"| {' | '.join(row)} |" for row in rows]
+    body = [f"| {' | '.join(map(_cell, row))} |" for row in rows]
     names = list(header)
     return "\n".join([f"| {' | '.join(names)} |", "|" + " --- |" * len(names), *body]) if body else ""
 
 
+def _cell(text: str) -> str:
+    """A pipe belongs to the cell, in code too."""
+    return re.sub(r"(?<!\\)[|]", r"\|", text)
+
+
 def _text(text: str) -> str:
-    """A sentence that Markdown, HTML and a table take as it is; it mentions no person, no issue and no address."""
+    """A sentence that Markdown, HTML and a table take as it is; it mentions no person, no issue and no address.
+
+    What stands between backticks is code.
+    """
+    parts = printable(text).split("`")
+    if len(parts) % 2 == 0:
+        return _plain(text)
+    return "".join(_code(part) if k % 2 else _plain(part) for k, part in enumerate(parts))
+
+
+def _plain(text: str) -> str:
     escaped = re.sub(r"([\\`*_{}\[\]<>|~&$])", r"\\\1", printable(text))
     return re.sub(r"[@#:](?=[\w/])", r"\g<0><!-- -->", escaped)
 
@@ -101,7 +116,7 @@ def _text(text: str) -> str:
 def _code(text: str) -> str:
     """A name as it is, whatever it holds."""
     fence = "`" * (1 + max((len(run) for run in re.findall("`+", text)), default=0))
-    inner = printable(text).replace("|", r"\|")
+    inner = printable(text)
     return f"{fence} {inner} {fence}" if "`" in inner or inner != inner.strip() else f"{fence}{inner}{fence}"
 
 

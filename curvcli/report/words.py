@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from ..plurals import counted
 from .check import printable
 from .model import CheckRow, Report, Topology
 
@@ -21,18 +22,18 @@ def verdict(report: Report) -> str:
     counts = {status: sum(row.status == status for row in report.checks) for status in _RANK}
     parts = []
     if counts["fail"]:
-        parts.append(_counted(counts["fail"], "identity fails", "identities fail"))
-    parts.append(_counted(counts["pass"], "identity holds", "identities hold"))
+        parts.append(counted(counts["fail"], "identity fails", "identities fail"))
+    parts.append(counted(counts["pass"], "identity holds", "identities hold"))
     if counts["not_applicable"]:
         parts.append(f"{counts['not_applicable']:,} not applicable")
-    parts.append(_counted(len(report.warnings), "warning", "warnings") if report.warnings else "no warnings")
+    parts.append(counted(len(report.warnings), "warning", "warnings") if report.warnings else "no warnings")
     return ", ".join(parts)
 
 
 def shape(topology: Topology) -> str:
     """What the surface is: its pieces, its boundary, its genus."""
     words = [
-        "closed" if topology.closed else _counted(topology.boundary_edges, "boundary edge", "boundary edges"),
+        "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge", "boundary edges"),
         "manifold" if topology.manifold else "not manifold",
         "orientable" if topology.orientable else "not orientable",
     ]
@@ -41,14 +42,14 @@ def shape(topology: Topology) -> str:
     if topology.genus is not None:
         words.append(f"genus {topology.genus}")
     if topology.crosscaps:
-        words.append(_counted(topology.crosscaps, "crosscap", "crosscaps"))
+        words.append(counted(topology.crosscaps, "crosscap", "crosscaps"))
     if topology.boundary_loops:
-        words.append(_counted(topology.boundary_loops, "boundary loop", "boundary loops"))
+        words.append(counted(topology.boundary_loops, "boundary loop", "boundary loops"))
     return ", ".join(words)
 
 
 def conventions(report: Report) -> dict[str, str]:
-    """What was chosen, one sentence for each option."""
+    """What was chosen, in words for each option; of options that only some columns know, those that were used."""
     chosen = report.conventions
     turned = "closed patches that were inside out are turned" if chosen["orient"] == "outward" else "as the file has it"
     found = {
@@ -62,9 +63,8 @@ def conventions(report: Report) -> dict[str, str]:
         "unit of length": chosen["unit"] or "that of the file",
         "undefined": "null: neither 0 nor left out of a count",
     }
-    if chosen["regions"] is not None:
-        found["regions"] = chosen["regions"]
-    return found
+    told = ("mean", "area", "orient", "weld", "unit")
+    return found | {key: str(value) for key, value in chosen.items() if key not in told and value is not None}
 
 
 def failing_first(rows: Iterable[CheckRow]) -> list[CheckRow]:
@@ -106,7 +106,3 @@ def _quoted(argument: str) -> str:
 
 def _escaped(argument: str) -> bytes:
     return argument.replace("\\", r"\\").replace("'", r"\'").encode("utf-8", "surrogateescape")
-
-
-def _counted(count: int, one: str, many: str) -> str:
-    return f"{count:,} {one if count == 1 else many}"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import hashlib
 from collections.abc import Callable
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -39,8 +38,10 @@ def require() -> None:
 
     Errors: MissingExtraError.
     """
-    if find_spec("jinja2") is None:
-        raise MissingExtraError("-o .html: needs Jinja; `pip install 'curvcli[page]'`")
+    try:
+        import jinja2  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("-o .html: needs Jinja; `pip install 'curvcli[page]'`") from None
 
 
 def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], command: str | None) -> bytes:
@@ -64,7 +65,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    templates.filters |= {"number": number, "hex": hex_color, "exact": _exact}
+    templates.filters |= {"number": number, "hex": hex_color, "exact": _exact, "coded": _coded}
     source: Callable[[str], str] = lambda name: templates.loader.get_source(templates, name)[0]  # type: ignore[union-attr]  # noqa: E731
     shown = columns(analysis, appearance, colored)
     display, blocks = _fitted(analysis, shown)
@@ -88,6 +89,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         most_rows=SHOWN_ROWS,
         totals=_totals(),
         columns=shown,
+        units={column.name: column.unit for column in shown},
         gradients={column.scale.cmap: column.scale.gradient for column in shown},
         first=_first(shown, colored),
         display=display,
@@ -135,6 +137,16 @@ def _exact(value: Any) -> str:
     if isinstance(value, list):
         return " ".join(map(_exact, value))
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)
+
+
+def _coded(text: str) -> Any:
+    """Text whose parts between backticks are code."""
+    from markupsafe import Markup
+
+    parts = printable(text).split("`")
+    if len(parts) % 2 == 0:
+        return text
+    return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))
 
 
 def _fitted(analysis: Analysis, shown: list[Column]) -> tuple[Display, dict[str, Any]]:

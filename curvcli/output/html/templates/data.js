@@ -41,17 +41,23 @@ function rows(packed, k) {
 /** The number that a stored one stands for, and what float32 left of it where that is stored too. */
 const real = (stored, of, rest = 0) => (stored + rest) * 2 ** of.exponent;
 
+/** A number with so many digits, small ones as 1.5e-7. */
+function written(value, digits) {
+  const small = value !== 0 && Math.abs(value) < 1e-4;
+  return small ? value.toExponential(digits - 1).replace(/\.?0+e/, "e") : String(Number(value.toPrecision(digits)));
+}
+
 /** The shortest text that is the same float32; a few digits more where no float32 is near. */
 function shortest(value) {
   const single = Math.fround(value);
   const subnormal = value !== 0 && Math.abs(value) < 1.2e-38;
   if (Number.isFinite(single) && !subnormal) {
     for (let digits = 6; digits < 9; digits++) {
-      const text = value.toPrecision(digits);
-      if (Math.fround(Number(text)) === single) return String(Number(text));
+      const text = written(value, digits);
+      if (Math.fround(Number(text)) === single) return text;
     }
   }
-  return String(Number(value.toPrecision(9)));
+  return written(value, 9);
 }
 
 /** A column's stored numbers, unpacked when they are first asked for. */

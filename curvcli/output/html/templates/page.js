@@ -196,8 +196,9 @@ function start() {
   scene.showEdges(data.edges);
   scene.paint();
   new ResizeObserver(() => scene.resize()).observe(canvas.parentElement);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => scene.paint());
-  for (const query of ["print"]) matchMedia(query).addEventListener("change", () => { scene.paint(); scene.resize(); });
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", () => { scene.paint(); scene.now(); });
+  }
   listen(canvas);
 }
 

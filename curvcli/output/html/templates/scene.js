@@ -234,8 +234,9 @@ void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 
     this.draw();
   }
 
-  /** Fit the canvas to its place on the page. */
+  /** Fit the canvas to its place on the page; on paper it stays as it is. */
   resize() {
+    if (matchMedia("print").matches) return;
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);

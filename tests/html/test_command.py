@@ -1,0 +1,65 @@
+"""`-o x.html` and `-o x.md` from the command line."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+
+from curvcli.errors import MissingExtraError
+from curvcli.output.html import engine, page
+from tests.cli.program import CUBE, DISK, ROOT, curvcli, wrote
+from tests.html.parsed import Page
+
+
+def test_several_meshes_each_with_its_pages(tmp_path: Path) -> None:
+    arguments = ["analyze", CUBE, DISK, "-q", "-o", str(tmp_path / "{stem}.html"), "-o", str(tmp_path / "{stem}.md")]
+    wrote(curvcli(*arguments, "--color-by", "A,K", "--range", "0:1", "--up", "y", "--view", "front"))
+    for mesh in (CUBE, DISK):
+        path = tmp_path / f"{Path(mesh).stem}.html"
+        shown = Page(path.read_bytes())
+        command = shlex.split(shown.root.one("code", id="command").text)
+        assert command[:10] == ["curvcli", *arguments, "--color-by"]
+        assert shown.root.one("h1").text == mesh
+        assert shown.root.one("option", selected=None).text == "A"
+        scales = {column["name"]: (column["low"], column["high"]) for column in shown.json()["columns"]}
+        assert scales["A"] == scales["K"] == (0.0, 1.0) != scales["h"]
+        assert shown.json()["view"] == [pytest.approx([0, 0, 1], abs=1e-9), pytest.approx([0, 1, 0], abs=1e-9)]
+        assert path.with_suffix(".md").read_text().startswith(f"### curvcli: `{mesh}`\n")
+
+
+def test_a_page_on_stdout(tmp_path: Path) -> None:
+    ended = curvcli("analyze", CUBE, "-o", "-", "--format", "html")
+    assert (ended.code, ended.err) == (0, "")
+    assert Page(ended.out.encode()).root.one("h1").text == CUBE
+
+
+def test_without_the_extra_it_is_told_before_any_work(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text("import sys\nsys.modules['jinja2'] = None\n")
+    paths = os.pathsep.join([str(tmp_path), str(ROOT)])
+    ended = curvcli("analyze", "no-such-mesh.obj", "-o", tmp_path / "x.html", PYTHONPATH=paths)
+    assert ended.code == 2
+    assert "`pip install 'curvcli[page]'`" in ended.complaint
+
+
+def test_a_missing_template_engine(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "jinja2", None)
+    with pytest.raises(MissingExtraError, match="curvcli\\[page\\]"):
+        page.require()
+
+
+@pytest.mark.parametrize("content", [b"", b"<html></html>"])
+def test_a_trimesh_with_another_viewer(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, content: bytes) -> None:
+    import zipfile
+
+    place = tmp_path / engine._PLACE
+    place.parent.mkdir(parents=True)
+    if content:
+        with zipfile.ZipFile(place, "w") as archive:
+            archive.writestr(engine._MEMBER, content)
+    monkeypatch.setattr(engine, "files", lambda name: tmp_path)
+    with pytest.raises(MissingExtraError, match="trimesh"):
+        engine.engine()
