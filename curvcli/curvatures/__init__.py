@@ -19,4 +19,5 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     averaged,
     vertex_normals,
     corrected,
+    fits,
 )

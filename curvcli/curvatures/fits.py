@@ -1,0 +1,143 @@
+"""Curvatures of local fits: the surface near a vertex as a polynomial over its tangent plane."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..blocks import Floats, dot
+from ..declare import Column, Quantity, VectorColumn, curvature_pass
+from ..settings import Scale
+from ..surface import Surface
+from .jets import QUADRATIC, Jets, fit
+from .moments import Moments, moments
+from .star import null_where
+from .tensor import line
+
+_SHARED: dict[str, Any] = {
+    "boundary": "same, from one side; null where the neighbourhood does not determine a quadric",
+    "source": "Cazals and Pouget, Estimating differential quantities using polynomial fitting of osculating jets; "
+    "degrees 3 and 4 as far as residuals tell them from noise: curvcli",
+}
+_DENSITY: dict[str, Any] = {"kind": "density", "signed": True, **_SHARED}
+_KAPPA: dict[str, Any] = {
+    "length_exponent": -1,
+    "parity": "odd",
+    "preserves": "κ₁ + κ₂ = h_fit and κ₁ κ₂ = K_fit; κ₁ ≥ κ₂",
+    **_DENSITY,
+}
+_LINE: dict[str, Any] = {
+    "kind": "direction",
+    "vector": True,
+    "preserves": "dir_1_fit ⊥ dir_2_fit, both tangential to the fitted surface",
+    **_SHARED,
+}
+# Principal curvatures that differ by less than this part of their size have no directions.
+_UMBILIC = 1e-9
+
+
+@curvature_pass(
+    provides=(
+        Quantity(
+            "K_fit",
+            symbol="K",
+            formula="det of the shape operator of the fitted graph at the vertex",
+            length_exponent=-2,
+            preserves="nothing in sum; exact on planes, of second order and more on smooth surfaces",
+            description="Gauss curvature of the local fit, per area: the best estimate at a point of a smooth surface.",
+            **_DENSITY,
+        ),
+        Quantity(
+            "h_fit",
+            symbol="H",
+            formula="trace of the shape operator of the fitted graph at the vertex",
+            length_exponent=-1,
+            mean_degree=1,
+            parity="odd",
+            preserves="nothing in sum; exact on planes, of second order and more on smooth surfaces",
+            description="Mean curvature κ₁ + κ₂ of the local fit, positive where convex.",
+            **_DENSITY,
+        ),
+        Quantity(
+            "kappa_1_fit",
+            symbol="κ₁",
+            formula="the larger eigenvalue of the shape operator of the fit",
+            partner="kappa_2_fit",
+            description="Larger principal curvature of the local fit.",
+            **_KAPPA,
+        ),
+        Quantity(
+            "kappa_2_fit",
+            symbol="κ₂",
+            formula="the smaller eigenvalue of the shape operator of the fit",
+            partner="kappa_1_fit",
+            description="Smaller principal curvature of the local fit.",
+            **_KAPPA,
+        ),
+        Quantity(
+            "dir_1_fit",
+            symbol="**e**₁",
+            formula="eigenvector of the shape operator of the fit to κ₁",
+            partner="dir_2_fit",
+            description="Direction of κ₁ of the local fit, a line: of unit length, its largest component positive.",
+            **_LINE,
+        ),
+        Quantity(
+            "dir_2_fit",
+            symbol="**e**₂",
+            formula="eigenvector of the shape operator of the fit to κ₂",
+            partner="dir_1_fit",
+            description="Direction of κ₂ of the local fit, a line: of unit length, its largest component positive.",
+            **_LINE,
+        ),
+        Quantity(
+            "condition_fit",
+            symbol="κ(Φ)",
+            formula="√(tr N tr N⁻¹), N = ΦᵀΦ of degree 2 in units of the neighbourhood; 6 is the least",
+            kind="ratio",
+            preserves="invariant under scaling",
+            description="Condition of the local fit of degree 2: how much it can magnify errors of the positions.",
+            **_SHARED,
+        ),
+    )
+)
+def local_fit(surface: Surface, scale: Scale, star_vector: VectorColumn) -> tuple[Column | VectorColumn, ...]:
+    """Curvatures of the polynomial of least squares over the tangent plane of each vertex, at a stated scale."""
+    numbers, lines = np.full((5, surface.n_vertices), np.nan), np.full((2, 3, surface.n_vertices), np.nan)
+    for given in moments(surface, scale, star_vector, least=QUADRATIC):
+        jets = fit(given)
+        numbers[:, given.vertex], lines[:, :, given.vertex] = _curvatures(given, jets)
+    without = surface.without_orientation
+    gauss, mean, larger, smaller, condition = numbers
+    odd = (null_where(without, column) for column in (mean, larger, smaller, lines[0], lines[1]))
+    return gauss, *odd, condition
+
+
+def _curvatures(given: Moments, jets: Jets) -> tuple[Floats, Floats]:
+    """(5, m) K, H, κ₁, κ₂ and condition, and (2, 3, m) principal directions of the graph at the vertex.
+
+    With I = R Rᵀ the first fundamental form, R lower triangular, the shape operator in an orthonormal tangent frame is
+    R⁻¹ II R⁻ᵀ.
+    """
+    p, q = jets.gradient
+    # A graph that bends down, away from its normal, is convex seen from there.
+    a, b, d = -jets.hessian / np.sqrt(1 + p * p + q * q)
+    first = np.sqrt(1 + p * p)
+    skew = p * q / first
+    second = np.sqrt(1 + q * q - skew * skew)
+    a, b = a / (first * first), b / first
+    b = (b - skew * a) / second
+    # d − 2 skew (mixed) + skew² a with the mixed entry already orthonormal.
+    d = (d - 2 * skew * second * b - skew * skew * a) / (second * second)
+    half, gap = 0.5 * (a + d), np.hypot(0.5 * (a - d), b)
+    turn = 0.5 * np.arctan2(b, 0.5 * (a - d))
+    lines = np.empty((2, 3, len(p)))
+    for target, (s, t) in zip(lines, ((np.cos(turn), np.sin(turn)), (-np.sin(turn), np.cos(turn))), strict=True):
+        # R⁻ᵀ takes the orthonormal frame to the parameters.
+        y = t / second
+        x = (s - skew * y) / first
+        vector = x * given.frame[0] + y * given.frame[1] + (p * x + q * y) * given.frame[2]
+        target[:] = line(vector / np.sqrt(dot(vector, vector)))
+    lines[:, :, ~(gap > _UMBILIC * (np.abs(half) + gap + jets.size))] = np.nan
+    return np.array([a * d - b * b, a + d, half + gap, half - gap, jets.condition]), lines
