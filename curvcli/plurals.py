@@ -14,4 +14,13 @@ def agree(count: int, text: str) -> str:
 
 def counted(count: int, one: str, many: str | None = None) -> str:
     """`1 face`, `1,000 faces`; many: where it is not one with an s."""
-    return f"{count:,} {one if count == 1 else many or one + 's'}"
+    return f"{count:,} {_form(count, one, many)}"
+
+
+def number_of(count: int, one: str, many: str | None = None) -> str:
+    """As `counted`, in the digits that stand in a file: `1000 faces`."""
+    return f"{count} {_form(count, one, many)}"
+
+
+def _form(count: int, one: str, many: str | None) -> str:
+    return one if count == 1 else many or one + "s"

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree
+from ..plurals import agree, number_of
 from .limits import check_faces
 from .model import Labels, MeshFile
 from .obj_lines import ObjLines, split_lines, tidy_lines
 from .obj_normals import corner_normals
-from .text import NEWLINE, Records, Untidy, plain_lines
+from .text import NEWLINE, Records, Untidy, decode, plain_lines
 
 _LABELS = {b"g": "groups", b"o": "objects", b"usemtl": "materials"}
 _SILENT = frozenset(b"vn vt s mtllib mg usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj".split())
@@ -94,7 +94,7 @@ def _statements(
         keyword, _, rest = lines.text(line).partition(b" ")
         if keyword in _LABELS:
             at.setdefault(_LABELS[keyword], []).append(line)
-            names.setdefault(_LABELS[keyword], []).append(_decode(b" ".join((b" " + rest).partition(b" #")[0].split())))
+            names.setdefault(_LABELS[keyword], []).append(decode(b" ".join((b" " + rest).partition(b" #")[0].split())))
         elif keyword not in _SILENT:
             code = "ignored_statements" if keyword in _IGNORED else "unknown_statements"
             counted[code].setdefault(keyword, []).append(line)
@@ -104,20 +104,13 @@ def _statements(
         raise InputError("no OBJ record found; lines that begin with `v` and `f` expected")
     for code, found in counted.items():
         if found:
-            words = ", ".join(f"`{_decode(word[:20])}`" for word in list(found)[:5])
+            words = ", ".join(f"`{decode(word[:20])}`" for word in list(found)[:5])
             what = "free-form, point or drawing" if code == "ignored_statements" else "unknown"
             first = lines.place(min(where[0] for where in found.values()))
             total = sum(map(len, found.values()))
             message = f"{what} {agree(total, '[statement|statements]')}, ignored: {words}"
             notices.append(Notice(code, total, message, f"the first is in {first}"))
     return {kind: (np.array(where, np.int64), names[kind]) for kind, where in at.items()}
-
-
-def _decode(name: bytes) -> str:
-    try:
-        return name.decode("utf-8")
-    except UnicodeDecodeError:
-        return name.decode("latin-1")
 
 
 def _label(before: NDArray[np.int64], names: list[str], keep: NDArray[np.bool_]) -> Labels:
@@ -140,7 +133,7 @@ def _vertices(
     if len(too_few):
         line = int(np.flatnonzero(is_v)[too_few[0]])
         found = int(np.broadcast_to(sizes, count)[too_few[0]])
-        raise InputError(f"`v` record with {found} numbers, at least 3 expected", place=lines.place(line))
+        raise InputError(f"`v` record with {number_of(found, 'number')}, at least 3 expected", place=lines.place(line))
     xyz = np.empty((3, count))
     for k in range(3):
         xyz[k] = _column(records, k)
@@ -157,6 +150,11 @@ def _vertices(
             message = "[vertex|vertices] with a rational weight `w` other than 1, which is ignored"
             hint = "only free-form surfaces use weights; x, y and z are taken as they stand"
             notices.append(Notice.at("rational_weights", rational, message, hint))
+    extra = np.flatnonzero(np.broadcast_to((np.asarray(sizes) == 5) | (np.asarray(sizes) > 7), count))
+    if len(extra):
+        line = int(np.flatnonzero(is_v)[extra[0]])
+        message = "[vertex|vertices] with numbers that are neither a weight nor a colour, which are ignored"
+        notices.append(Notice.at("extra_values", extra, message, f"the first is in {lines.place(line)}"))
     return xyz, colours
 
 

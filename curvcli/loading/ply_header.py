@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
+from .text import decode
 
 _TYPES = {
     "char": "i1",
@@ -83,15 +84,18 @@ def parse_header(data: bytes) -> Header:
     end = _END.search(data, magic.end() - 1)
     if not end:
         raise InputError("no `end_header` found, expected at the end of the PLY header")
-    lines = data[magic.end() : end.start() + 1].decode("latin-1").replace(newline.decode(), "\n").splitlines()
+    # Bytes: of a text also what stands in the middle of letters would end a line or a word.
+    lines = data[magic.end() : end.start() + 1].replace(newline, b"\n").split(b"\n")[:-1]
     order: str | None = None
     elements: list[tuple[str, int, list[Property]]] = []
     for number, line in enumerate(lines, 2):
-        words = line.split()
+        words = [decode(word) for word in line.split()]
         place = f"line {number}"
         match words:
             case [] | ["comment" | "obj_info", *_]:
                 continue
+            case ["format", *_] if order:
+                raise InputError("a second `format` found, one expected", place=place)
             case ["format", str(name), *_]:
                 if name not in _ORDER:
                     raise InputError(f"format `{name[:40]}` found, one of {', '.join(_ORDER)} expected", place=place)
@@ -108,13 +112,12 @@ def parse_header(data: bytes) -> Header:
             case ["property", str(kind), str(name)] if elements and order:
                 elements[-1][2].append(Property(name, _type(kind, order, place)))
             case _:
-                raise InputError(f"`{line.strip()[:60]}` found, a PLY header statement expected", place=place)
+                raise InputError(f"`{' '.join(words)[:60]}` found, a PLY header statement expected", place=place)
     if order is None:
         raise InputError("no `format` found in the PLY header")
-    names = Counter(name for name, _, _ in elements)
-    for name, times in names.items():
-        if times > 1:
-            raise InputError(f"element `{name[:40]}` announced {times} times, once expected", place="header")
+    _once("element", [name for name, _, _ in elements])
+    for name, _, properties in elements:
+        _once(f"element `{name[:40]}`: property", [p.name for p in properties])
     # Old Mac line ends: a line feed after the last one belongs to the data.
     body = end.end() - (newline == b"\r" and end[1] == b"\r\n")
     return Header(
@@ -123,6 +126,12 @@ def parse_header(data: bytes) -> Header:
         body,
         len(lines) + 2,
     )
+
+
+def _once(what: str, names: list[str]) -> None:
+    name, times = max(Counter(names).items(), key=lambda found: found[1], default=("", 1))
+    if times > 1:
+        raise InputError(f"{what} `{name[:40]}` announced {times} times, once expected", place="header")
 
 
 def _count(text: str, place: str) -> int:

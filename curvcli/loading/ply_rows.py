@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..plurals import number_of
 from .ply_header import Element, Property
 
 
@@ -31,7 +32,9 @@ def read_binary_rows(data: bytes, offset: int, element: Element) -> tuple[Column
     """
     if element.least_bytes * element.count > len(data) - offset:
         room = (len(data) - offset) // element.least_bytes
-        raise InputError(f"{element.count} rows announced, room for at most {room} found", place=element.name)
+        raise InputError(
+            f"{number_of(element.count, 'row')} announced, room for at most {room} found", place=element.name
+        )
     if not element.count or not element.properties:
         return empty_columns(element), offset
     if all(p.length is None for p in element.properties):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree
+from ..plurals import agree, number_of
 from .ply_header import TOO_SMALL, Element, Header, Property
 from .ply_rows import Columns, empty_columns
 from .text import (
@@ -33,7 +33,8 @@ def read_text_rows(data: bytes, header: Header, notices: list[Notice]) -> dict[s
     for element in header.elements:
         if element.count * max(2 * len(element.properties), 1) - 1 > len(data) - header.body:
             raise InputError(
-                f"{element.count} rows announced, more than the {len(data) - header.body} bytes that follow can hold",
+                f"{number_of(element.count, 'row')} announced, more than the {len(data) - header.body} bytes that "
+                "follow can hold",
                 place=element.name,
             )
     body = plain_lines(data[header.body :])
@@ -67,7 +68,9 @@ def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[n
         if line + element.count > len(starts) - 1:
             if numbers is None:
                 raise Untidy
-            raise InputError(f"{element.count} rows announced, {len(starts) - 1 - line} found", place=element.name)
+            raise InputError(
+                f"{number_of(element.count, 'row')} announced, {len(starts) - 1 - line} found", place=element.name
+            )
         rows = _Rows(body[starts[line] : starts[line + element.count]], element, header.lines, line, numbers)
         if element.count and element.properties:
             content[element.name] = _same_layout(rows) or _any_layout(rows, notices)

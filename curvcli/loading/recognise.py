@@ -12,6 +12,17 @@ from .stl import ASCII_SIGN, announced_size
 FORMATS = ("obj", "ply", "stl")
 """The promised formats, which are also the suffixes; each may be followed by .gz."""
 
+_ARCHIVES = {
+    b"PK\x03\x04": "a ZIP archive",
+    b"BZh": "bzip2 data",
+    b"\xfd7zXZ\0": "xz data",
+    b"\x28\xb5\x2f\xfd": "Zstandard data",
+    b"7z\xbc\xaf\x27\x1c": "a 7z archive",
+    b"\x1f\x8b": "gzip data within gzip data",
+}
+_WIDE_TEXT = re.compile(
+    rb"\xff\xfe|\xfe\xff|(?:[\t\n\r -~]\0){4}|(?:\0[\t\n\r -~]){4}|(?:[\t\n\r -~]\0{3}){2}|(?:\0{3}[\t\n\r -~]){2}"
+)
 _V_LINE = re.compile(rb"(?:^|[\r\n])[ \t]*v[ \t]+[-+.\d]\S*[ \t]+[-+.\d]")
 
 
@@ -37,8 +48,7 @@ def recognise(data: bytes, wanted: str | None) -> tuple[str, tuple[Notice, ...]]
 
     wanted: what the name says, None if it says nothing. Errors: InputError for content that cannot be recognised.
     """
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") and (wanted or "obj") == "obj" and announced_size(data) != len(data):
-        raise InputError("UTF-16 text found, ASCII or UTF-8 expected", hint="convert it, for example with iconv")
+    _refuse_what_is_known(data)
     if wanted in ("ply", "stl") and _bears_sign(data, wanted):
         return wanted, ()
     found = next((kind for kind in ("ply", "stl", "obj") if kind != wanted and _bears_sign(data, kind)), None)
@@ -50,6 +60,21 @@ def recognise(data: bytes, wanted: str | None) -> tuple[str, tuple[Notice, ...]]
         return found, ()
     message = f"file whose content is {found.upper()}, not {wanted.upper()} as its name says, and read as such"
     return found, (Notice("wrong_suffix", 1, message, f"rename it to .{found}"),)
+
+
+def _refuse_what_is_known(data: bytes) -> None:
+    """Refuses content that is known to be something else, of which a part might be read as a mesh."""
+    if len(data) >= 84 and announced_size(data) == len(data):
+        return  # binary STL, whose first 80 bytes are free
+    for sign, what in _ARCHIVES.items():
+        if data.startswith(sign):
+            raise InputError(f"{what} found, a mesh expected", hint="unpack it first")
+    if data[257:262] == b"ustar":
+        raise InputError("a tar archive found, a mesh expected", hint="unpack it first")
+    if _WIDE_TEXT.match(data):
+        raise InputError(
+            "UTF-16 or UTF-32 text found, ASCII or UTF-8 expected", hint="convert it, for example with iconv"
+        )
 
 
 def _bears_sign(data: bytes, kind: str) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree
+from ..plurals import agree, number_of
 from .limits import check_faces
 from .model import MeshFile
 from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy
@@ -59,12 +59,15 @@ def is_ascii_stl(data: bytes) -> bool:
 
 def _read_binary(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float32], tuple[Notice, ...]]:
     if len(data) < _HEADER:
-        raise InputError(f"{len(data)} bytes found, at least {_HEADER} expected, or text that begins with `solid`")
+        raise InputError(
+            f"{number_of(len(data), 'byte')} found, at least {_HEADER} expected, or text that begins with `solid`"
+        )
     count = (announced_size(data) - _HEADER) // 50
     missing = announced_size(data) - len(data)
     if missing > 0:
         raise InputError(
-            f"{count} facets announced, room for {(len(data) - _HEADER) // 50} found: {missing} bytes are missing",
+            f"{number_of(count, 'facet')} announced, room for {(len(data) - _HEADER) // 50} found: "
+            f"{number_of(missing, 'byte')} {agree(missing, '[is|are]')} missing",
             place="byte 80",
         )
     check_faces(count, max_faces)
@@ -119,7 +122,7 @@ def _read_lines(
     if (sizes != 3).any():
         row = int(np.flatnonzero(sizes != 3)[0])
         place = f"{unit} {int(vertices[row]) + 1}"
-        raise InputError(f"vertex with {sizes[row]} numbers found, 3 expected", place=place)
+        raise InputError(f"vertex with {number_of(int(sizes[row]), 'number')} found, 3 expected", place=place)
     notices = []
     solids = int(np.count_nonzero(first == ord("s")))
     if solids > 1:
@@ -158,4 +161,4 @@ def _check_facets(facets: NDArray[np.intp], vertices: NDArray[np.intp], unit: st
     if len(wrong):
         found = int(per_facet[wrong[0]])
         place = f"{unit} {int(facets[wrong[0]]) + 1}"
-        raise InputError(f"facet with {found} vertices found, 3 expected", place=place)
+        raise InputError(f"facet with {number_of(found, 'vertex', 'vertices')} found, 3 expected", place=place)

@@ -54,6 +54,14 @@ class Records:
         return rows.reshape(-1)
 
 
+def decode(text: bytes) -> str:
+    """Words of a file: UTF-8, or Latin-1 where they cannot be that."""
+    try:
+        return text.decode("utf-8")
+    except UnicodeDecodeError:
+        return text.decode("latin-1")
+
+
 def plain_lines(data: bytes) -> bytes:
     """The same text without byte-order mark, with LF line ends (also at the end) and with blanks as the only white
     space."""

@@ -109,9 +109,12 @@ def test_content_that_cannot_be_recognised(tmp_path: Path, told: str, data: byte
 
 
 def test_utf_16(tmp_path: Path) -> None:
-    path = tmp_path / "mesh.obj"
-    path.write_bytes(OBJ.decode().encode("utf-16"))
-    assert "UTF-16 text found" in refused(path)
+    """Also without a byte-order mark: with zeros for blanks, `10` would be read as two numbers."""
+    for kind in ("obj", "ply", "stl"):
+        path = tmp_path / f"mesh.{kind}"
+        for encoding in ("utf-16", "utf-16-le", "utf-16-be", "utf-32", "utf-32-le", "utf-32-be"):
+            path.write_bytes(OBJ.replace(b"v 1 ", b"v 10 ").decode().encode(encoding))
+            assert "UTF-16 or UTF-32 text found" in refused(path)
 
 
 def test_other_suffixes_are_refused_unless_told(tmp_path: Path) -> None:

@@ -110,7 +110,7 @@ def test_what_is_counted() -> None:
 class TestRefused:
     def test_binary_shorter_than_announced(self) -> None:
         data = binary_stl(TETRAHEDRON)
-        assert refused(data[:-1]) == "byte 80: 4 facets announced, room for 3 found: 1 bytes are missing"
+        assert refused(data[:-1]) == "byte 80: 4 facets announced, room for 3 found: 1 byte is missing"
         for end in range(len(data)):
             assert refused(data[:end])
 
