@@ -16,12 +16,13 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
+    from . import errors
     from .analysis import Analysis, analyze
     from .declare import passes
     from .loading.surfaces import load
     from .surface import Surface
 
-__all__ = ["Analysis", "Surface", "__version__", "analyze", "load", "passes"]
+__all__ = ["Analysis", "Surface", "__version__", "analyze", "errors", "load", "passes"]
 
 _HOME = {"Analysis": "analysis", "Surface": "surface", "analyze": "analysis", "load": "loading.surfaces"}
 
@@ -32,6 +33,8 @@ def __getattr__(name: str) -> Any:
     if name == "passes":
         import_module(".pipeline", __name__).load_passes()
         return import_module(".declare", __name__).passes
+    if name == "errors":
+        return import_module(".errors", __name__)
     if name in _HOME:
         return getattr(import_module(f".{_HOME[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

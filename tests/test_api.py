@@ -20,7 +20,7 @@ from tests.columns import PUBLIC
 
 
 def test_the_names_promised() -> None:
-    assert {"load", "analyze", "Surface", "Analysis", "passes", "__version__"} <= set(dir(curvcli))
+    assert {"load", "analyze", "Surface", "Analysis", "passes", "errors", "__version__"} == set(dir(curvcli))
     for name in dir(curvcli):
         assert getattr(curvcli, name) is not None
     with pytest.raises(AttributeError, match="no_such_name"):

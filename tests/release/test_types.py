@@ -37,7 +37,10 @@ statuses: list[str] = [check.status for check in analysis.checks]
 codes: list[str] = [notice.code for notice in analysis.notices]
 willmore: float | list[float] | None = analysis.totals["willmore"]
 curvature = curvcli.passes["K"](surface)
-analysis.write("bunny.csv", force=True)
+try:
+    analysis.write("bunny.csv", force=True)
+except curvcli.errors.OutputError as error:
+    print(error)
 
 curvcli.analyze(surface, area="voronoy")  # type: ignore[arg-type]
 curvcli.analyze(surface, "core", mena="sum")  # type: ignore[call-arg]
