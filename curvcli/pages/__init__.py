@@ -9,7 +9,7 @@ from pathlib import Path
 from ..report.quantities import page as quantities
 from .checks import page as checks
 from .command_line import page as command_line
-from .keys import page_part as report
+from .keys import page as schemas
 from .modules import page_part as modules
 from .suffixes import page_part as outputs
 from .tables import page_part as columns
@@ -19,6 +19,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "quantities.md": quantities,
     "checks.md": checks,
     "command-line.md": command_line,
+    "schemas.md": schemas,
 }
 
 # Parts of pages: what stands between `<!-- made: NAME -->` and `<!-- end -->`.
@@ -26,7 +27,6 @@ PARTS: dict[str, Callable[[], str]] = {
     "outputs": outputs,
     "modules": modules,
     "columns": columns,
-    "report": report,
 }
 
 _PART = re.compile(r"(<!-- made: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)

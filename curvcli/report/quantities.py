@@ -155,8 +155,8 @@ def page() -> str:
     parts = [
         "# Quantities\n",
         "Made by `curvcli passes --markdown`. H = κ₁ + κ₂, positive where the surface is convex seen from the side its "
-        "normal points to. A measure is integrated over the star of a vertex; a density is per area. Where no face uses "
-        "a vertex, everything but its status is null.\n",
+        "normal points to. A measure is integrated over the star of a vertex; a density is per area. Where no face "
+        "uses a vertex, everything but its status is null.\n",
     ]
     element = ""
     for quantity in public():
