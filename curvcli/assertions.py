@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .analysis import Analysis
-from .declare import Quantity, passes
+from .declare import AT_SCALE, Quantity, passes
 from .errors import UsageError
 from .pipeline import at_scales
 from .report.check import number
@@ -108,7 +108,7 @@ def columns(scales: tuple[Scale, ...] = ()) -> dict[str, Quantity]:
     """Every scalar column by its name; where two elements share one, the vertices' comes first."""
     found: dict[str, Quantity] = {}
     for quantity in _at(scales):
-        alone = () if quantity.vector else (quantity.name,)
+        alone = () if quantity.vector or AT_SCALE in quantity.name else (quantity.name,)
         for column in (*quantity.columns, *alone, *(f"{quantity.name}_{x}" for x in "xyz" if quantity.vector)):
             found.setdefault(column, quantity)
     return found

@@ -27,10 +27,11 @@ class Scale:
     size: float
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.size) and self.size > 0):
-            raise UsageError(f"a neighbourhood of {self.size:g} {self.kind} is none, expected a positive size")
-        if self.kind == "rings" and (self.size != int(self.size) or self.size > MOST_RINGS):
-            raise UsageError(f"{self.size:g} rings, expected a whole number from 1 to {MOST_RINGS}")
+        known = math.isfinite(self.size) and self.size > 0
+        if self.kind == "rings" and not (known and self.size == int(self.size) and self.size <= MOST_RINGS):
+            raise UsageError(f"rings {self.size:g}: expected a whole number from 1 to {MOST_RINGS}")
+        if not known:
+            raise UsageError(f"radius {self.size:g}: expected a positive length or number of mean edge lengths")
 
     @property
     def name(self) -> str:
@@ -75,6 +76,12 @@ def parse_scales(ring_counts: str | int | None, radii: str | float | None) -> tu
     found = [rings(_count(text)) for text in _entries(ring_counts)]
     found += [parse_radius(text) for text in _entries(radii)]
     return tuple(dict.fromkeys(found))
+
+
+def in_words(names: str) -> str:
+    """A comma list of the names of scales, for people."""
+    given = options_of(names)
+    return ", ".join(str(scale) for scale in parse_scales(given["rings"], given["radius"]))
 
 
 def options_of(names: str) -> dict[str, str | None]:

@@ -11,6 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..plurals import counted
+from ..settings import in_words
 from .model import CheckRow, Report, model
 from .proof import holds, proof
 
@@ -122,6 +123,10 @@ def _conventions(report: Report) -> str:
     chosen = report.conventions
     mean = "κ₁ + κ₂" if chosen["mean"] == "sum" else "(κ₁ + κ₂)/2"
     rest = "; ".join(f"{key} {chosen[key]}" for key in ("area", "orient", "weld"))
+    if chosen["scale"] is not None:
+        rest += f"; estimates at {in_words(chosen['scale'])}"
+    if chosen["normals"] is not None:
+        rest += f", normals of the {chosen['normals']}"
     return f"H = {mean}, positive where convex; {rest}"
 
 
