@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from ..plurals import counted
 from ..settings import in_words
+from .fitting import add_numbers, fitting, plain_table
 from .model import CheckRow, Report, model
 from .proof import holds, proof
 
@@ -20,14 +20,16 @@ if TYPE_CHECKING:
 
 _MARKS = {"pass": "[green]pass[/green]", "fail": "[bold red]FAIL[/bold red]", "not_applicable": "[dim]n/a[/dim]"}
 _ORDER = {"fail": 0, "pass": 1, "not_applicable": 2}
+# Least widths of a column of sentences, and of one of names that are folded.
+_DETAIL, _NAME = 24, 14
+# Whole numbers below are written out.
+_PLAIN = 1e6
 
 
 def show(analysis: Analysis, verbose: int = 0) -> None:
     """Print the summary of an analysis to stdout; rich where it is a terminal, plain text in a pipe."""
     report = model(analysis)
     console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = max(console.width, 100)
     console.print(
         f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {_shape(report)}",
         soft_wrap=not console.is_terminal,
@@ -39,13 +41,14 @@ def show(analysis: Analysis, verbose: int = 0) -> None:
             f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}{first}{escape(hint)}",
             soft_wrap=not console.is_terminal,
         )
-    console.print(_checks(report.checks, verbose))
-    console.print(escape(proof(report)), style="red" if not holds(report) else "dim", soft_wrap=True)
+    console.print(fitting(console, _checks(report.checks, verbose)))
+    failed = not holds(report)
+    console.print(escape(proof(report)), style="red" if failed else "dim", soft_wrap=not console.is_terminal)
     console.print(_totals(report))
     if report.regions:
-        console.print(_regions(report))
+        console.print(fitting(console, (_regions(report, digits) for digits in (6, 4, 3))))
     if report.columns:
-        console.print(_columns(report))
+        console.print(fitting(console, _columns(report)))
     console.print(f"[dim]{_conventions(report)}[/dim]")
 
 
@@ -67,39 +70,51 @@ def _shape(report: Report) -> str:
     return "  ".join([*parts, ", ".join(words)])
 
 
-def _checks(rows: list[CheckRow], verbose: int) -> Table:
-    table = _table("check", "scope", "status")
-    for header in ("residual", "allowed"):
-        table.add_column(header, justify="right", no_wrap=True)
-    table.add_column("detail", overflow="fold")
+def _checks(rows: list[CheckRow], verbose: int) -> Iterator[Table]:
+    """What fails first, with the detail beside the numbers, or below the name where the terminal is narrow."""
     listed = [row for row in rows if row.scope == "whole" or row.status == "fail" or verbose]
-    for row in sorted(listed, key=lambda row: _ORDER[row.status]):
-        tested = row.status != "not_applicable"
-        numbers = (_number(row.residual), _number(row.tolerance)) if tested else ("", "")
-        table.add_row(row.name, row.scope, _MARKS[row.status], *numbers, escape(row.detail))
+    listed.sort(key=lambda row: _ORDER[row.status])
     hidden = len(rows) - len(listed)
-    if hidden:
-        pieces = "regions" if any(row.scope.startswith("region") for row in rows) else "components"
-        table.add_row("[dim]…[/dim]", pieces, _MARKS["pass"], "", "", f"[dim]{hidden:,} more, none failed; -v[/dim]")
-    return table
+    scoped = any(row.scope != "whole" for row in listed)
+    pieces = "regions" if any(row.scope.startswith("region") for row in rows) else "components"
+    for wide in (True, False):
+        table = plain_table("check")
+        if scoped:
+            table.add_column("scope", overflow="fold", min_width=12)
+        table.add_column("status", no_wrap=True)
+        add_numbers(table, "residual", "allowed")
+        if wide:
+            table.add_column("detail", overflow="fold", min_width=_DETAIL)
+        for row in listed:
+            tested = row.status != "not_applicable"
+            numbers = (_number(row.residual), _number(row.tolerance)) if tested else ("", "")
+            name = row.name if wide or row.status == "pass" else f"{row.name}\n  {escape(row.detail)}"
+            scope = (escape(row.scope),) if scoped else ()
+            table.add_row(name, *scope, _MARKS[row.status], *numbers, *((escape(row.detail),) if wide else ()))
+        if hidden:
+            told = f"[dim]{hidden:,} more on {pieces}, none failed; -v[/dim]"
+            first = "[dim]…[/dim]" if wide else told
+            table.add_row(first, *(("",) if scoped else ()), _MARKS["pass"], "", "", *((told,) if wide else ()))
+        if not wide:
+            table.columns[0].no_wrap, table.columns[0].min_width = False, _NAME
+        yield table
 
 
 def _totals(report: Report) -> Table:
-    table = _table("total")
+    table = plain_table("total")
     table.add_column("value", justify="left", overflow="fold")
     for key, value in report.totals.items():
         table.add_row(key, _value(value))
     return table
 
 
-def _regions(report: Report) -> Table:
-    table = _table("region")
-    for header in ("faces", "χ", "area", "ΣK", "Σκ_g", "willmore"):
-        table.add_column(header, justify="right", no_wrap=True)
+def _regions(report: Report, digits: int) -> Table:
+    table = plain_table("region", fold=_NAME)
+    add_numbers(table, "faces", "χ", "area", "ΣK", "Σκ_g", "willmore")
     for region in report.regions[:20]:
         topology = region.topology
-        totals = (_number(_scalar(region.totals.get(key)), 6) for key in ("area", "K", "kappa_g", "willmore"))
-        table.add_row(str(region.name), f"{topology.faces:,}", str(topology.euler_characteristic), *totals)
+        totals = (_number(_scalar(region.totals.get(key)), digits) for key in ("area", "K", "kappa_g", "willmore"))
+        table.add_row(escape(str(region.name)), f"{topology.faces:,}", str(topology.euler_characteristic), *totals)
     if len(report.regions) > 20:
         table.add_row(f"[dim]… {len(report.regions) - 20:,} more: --table regions=PATH[/dim]")
     return table
@@ -109,14 +124,22 @@ def _scalar(value: Any) -> float | None:
     return None if isinstance(value, list) else value
 
 
-def _columns(report: Report) -> Table:
-    table = _table("column", "unit")
-    for header in ("min", "median", "max", "mean", "undefined"):
-        table.add_column(header, justify="right", no_wrap=True)
-    for name, column in report.columns.items():
-        numbers = (_number(x, 4) for x in (column.min, column.median, column.max, column.mean))
-        table.add_row(name, column.unit, *numbers, f"{column.nulls:,}" if column.nulls else "")
-    return table
+def _columns(report: Report) -> Iterator[Table]:
+    """The statistics of every column; fewer digits, then fewer statistics, where the terminal is narrow."""
+    for digits, unit, statistics in (
+        (4, True, ("min", "median", "max", "mean")),
+        (3, True, ("min", "median", "max", "mean")),
+        (3, False, ("min", "median", "max", "mean")),
+        (3, False, ("min", "median", "max")),
+        (2, False, ("min", "max")),
+    ):
+        table = plain_table("column", *(("unit",) if unit else ()))
+        add_numbers(table, *statistics, "null")
+        for name, column in report.columns.items():
+            numbers = (_number(getattr(column, key), digits, "") for key in statistics)
+            nulls = f"{column.nulls:,}" if column.nulls else ""
+            table.add_row(name, *((column.unit,) if unit else ()), *numbers, nulls)
+        yield table
 
 
 def _conventions(report: Report) -> str:
@@ -130,18 +153,15 @@ def _conventions(report: Report) -> str:
     return f"H = {mean}, positive where convex; {rest}"
 
 
-def _table(*headers: str) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in headers:
-        table.add_column(header, no_wrap=True)
-    return table
-
-
 def _value(value: Any) -> str:
     if isinstance(value, Iterable):
         return "(" + ", ".join(_number(x, 12) for x in value) + ")"
     return _number(value, 15)
 
 
-def _number(value: float | None, digits: int = 2) -> str:
-    return "undefined" if value is None else f"{value:.{digits}g}"
+def _number(value: float | None, digits: int = 2, undefined: str = "undefined") -> str:
+    if value is None:
+        return undefined
+    text = f"{value:.{digits}g}"
+    # 4670 is shorter than 4.67e+03, and as many digits.
+    return f"{float(text):.0f}" if "e+0" in text and abs(value) < _PLAIN else text

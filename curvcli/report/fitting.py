@@ -1,0 +1,37 @@
+"""Tables for a terminal of any width: what does not fit is left out or shortened, never cut off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rich import box
+from rich.console import Console
+from rich.measure import Measurement
+from rich.table import Table
+
+
+def fitting(console: Console, variants: Iterable[Table]) -> Table:
+    """The first table that fits the console without a cell cut off, else the last, whose cells are folded."""
+    table, boundless = None, console.options.update(max_width=10**6)
+    for table in variants:
+        if Measurement.get(console, boundless, table).minimum <= console.width:
+            return table
+    if table is None:
+        raise ValueError("no table to choose from")
+    for column in table.columns:
+        column.no_wrap, column.overflow, column.min_width = False, "fold", None
+    return table
+
+
+def plain_table(*headers: str, fold: int | None = None) -> Table:
+    """An empty table without frame whose columns are as wide as they need; fold: the least width to fold them to."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    for header in headers:
+        table.add_column(header, no_wrap=fold is None, overflow="fold", min_width=fold)
+    return table
+
+
+def add_numbers(table: Table, *headers: str) -> None:
+    """Columns of numbers, to the right."""
+    for header in headers:
+        table.add_column(header, justify="right", no_wrap=True)
