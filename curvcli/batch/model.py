@@ -28,7 +28,10 @@ class Item(msgspec.Struct, frozen=True):
 
 
 class Settings(msgspec.Struct, frozen=True, kw_only=True):
-    """Everything that decides what is computed and written of each mesh, but for the mesh."""
+    """Everything that decides what is computed and written of each mesh, but for the mesh.
+
+    command: as typed; pages show it, and nothing else depends on it.
+    """
 
     passes: tuple[str, ...]
     save: tuple[str, ...] = ()
@@ -45,13 +48,16 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
     max_faces: int | None = None
     max_bytes: int | None = None
     appearance: Appearance = Appearance()
+    command: str | None = None
 
     def digest(self) -> str:
         """The hash by which a later run knows that it was asked for the same; plug-ins count with their versions."""
         from importlib.metadata import entry_points
 
         plug_ins = [(one.name, one.dist and one.dist.version) for one in entry_points(group="curvcli.passes")]
-        return hashlib.sha256(msgspec.json.encode([self, sorted(plug_ins)])).hexdigest()
+        return hashlib.sha256(
+            msgspec.json.encode([msgspec.structs.replace(self, command=None), sorted(plug_ins)])
+        ).hexdigest()
 
 
 class Limits(msgspec.Struct, frozen=True):

@@ -70,7 +70,7 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
         if kind and (kind not in TABLES or kind == "vertices"):
             kinds = ", ".join(kind for kind in TABLES if kind != "vertices")
             raise UsageError(f"--save {shown(one)}: expected KIND.SUFFIX with KIND one of {kinds}")
-        format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "picture"])
+        format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "page", "picture"])
         found[one] = None
     return tuple(found)
 

@@ -86,7 +86,9 @@ def _write(analysis: Analysis, item: Item, settings: Settings) -> None:
         _make(folder)
     # The folder is the batch's own and was checked at the start: what stands there is of an earlier run.
     with Outputs([path for _, path in item.outputs], force=True) as outputs:
-        analysis.extra_notices += write_into(outputs, analysis, paths, settings.appearance, tables=tables)
+        analysis.extra_notices += write_into(
+            outputs, analysis, paths, settings.appearance, tables=tables, command=settings.command
+        )
         outputs.commit()
 
 

@@ -95,6 +95,7 @@ def run(
     from ..batch.model import Limits, Settings
     from ..batch.plan import plan, saves
     from ..output.write import check_appearance
+    from ..report.words import shell_quoted
     from .main import worst
 
     if resume and force:
@@ -107,7 +108,14 @@ def run(
         raise UsageError("--save regions: there are none without --regions")
     appearance = options.appearance(conventions)
     check_appearance(appearance, at_scale, [f".{one}" for one in wanted])
-    how = Settings(passes=tuple(chosen), save=wanted, weld=options.welding(weld), appearance=appearance, **conventions)
+    how = Settings(
+        passes=tuple(chosen),
+        save=wanted,
+        weld=options.welding(weld),
+        appearance=appearance,
+        command=shell_quoted(["curvcli", *sys.argv[1:]]),
+        **conventions,
+    )
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
     items = plan(patterns, files_from, folder, wanted)
     # A scheduler that does not answer leaves no folder behind.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -18,8 +18,8 @@ FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader
 
 
 @contextmanager
-def browser() -> Iterator[Callable[..., Any]]:
-    """What starts a chromium with further flags; a skipped test that says what is missing."""
+def browser() -> Iterator[Any]:
+    """Chromium, or a skipped test that says what is missing."""
     try:
         from playwright.sync_api import sync_playwright
     except ImportError:
@@ -28,15 +28,18 @@ def browser() -> Iterator[Callable[..., Any]]:
     if program is None:
         pytest.skip(f"no browser is installed, looked for {', '.join(NAMES)}")
     with sync_playwright() as playwright:
-        yield lambda *flags: playwright.chromium.launch(executable_path=program, args=[*FLAGS, *flags])
+        launched = playwright.chromium.launch(executable_path=program, args=FLAGS)
+        yield launched
+        launched.close()
 
 
 class Tab:
     """A page that is open and ready, and all it complained of or asked for."""
 
-    def __init__(self, browser: Any, path: Path, **settings: Any) -> None:
+    def __init__(self, browser: Any, path: Path, before: str = "", **settings: Any) -> None:
         settings = {"viewport": {"width": 1200, "height": 900}, **settings}
         self.context = browser.new_context(offline=True, **settings)
+        self.context.add_init_script(before)
         self.page = self.context.new_page()
         self.complaints: list[str] = []
         self.page.on("console", lambda message: self.complaints.append(message.text))

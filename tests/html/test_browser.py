@@ -20,14 +20,9 @@ FLAT = grid(8).moved(grid(8).points * [1.0, 1.0, 0.0])
 
 
 @pytest.fixture(scope="module")
-def start() -> Iterator[Any]:
-    with browser() as launch:
-        yield launch
-
-
-@pytest.fixture(scope="module")
-def chromium(start: Any) -> Any:
-    return start()
+def chromium() -> Iterator[Any]:
+    with browser() as launched:
+        yield launched
 
 
 @pytest.fixture(scope="module")
@@ -162,7 +157,8 @@ def test_a_simplified_mesh_answers_with_true_values(
     shown = tab.values()
     for name in ("K", "A", "h_signed", "willmore"):
         assert singles(float(shown[name])) == singles(analysis.vertices[name][vertex])
-    hidden = next(v for v in range(vertex + 1, 6000) if v not in _shown(tab))
+    there = _shown(tab)
+    hidden = next(v for v in range(vertex + 1, 6000) if v not in there)
     tab.choose(hidden)
     tab.page.wait_for_function("document.getElementById('picked').textContent.includes('is not shown')")
     assert tab.complaints == []
@@ -201,10 +197,10 @@ def test_names_from_the_file_do_nothing(chromium: Any, folder: Path) -> None:
     assert tab.complaints == []
 
 
-def test_without_webgl_the_values_are_there(start: Any, folder: Path) -> None:
+def test_without_webgl_the_values_are_there(chromium: Any, folder: Path) -> None:
     path = folder / "plain.html"
     path.write_bytes(page_of(curvcli.analyze(tuple(grid()))))
-    tab = Tab(start("--disable-3d-apis"), path)
+    tab = Tab(chromium, path, before="HTMLCanvasElement.prototype.getContext = () => null")
     assert "no WebGL" in tab.page.inner_text("#trouble")
     tab.choose(3)
     tab.wait_for_vertex(3)

@@ -9,6 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from curvcli.batch.model import Item, Limits, Settings
+from curvcli.batch.plan import saves
+from curvcli.batch.run import run
 from curvcli.errors import MissingExtraError
 from curvcli.output.html import engine, page
 from tests.cli.program import CUBE, DISK, ROOT, curvcli, wrote
@@ -63,3 +66,13 @@ def test_a_trimesh_with_another_viewer(monkeypatch: pytest.MonkeyPatch, tmp_path
     monkeypatch.setattr(engine, "files", lambda name: tmp_path)
     with pytest.raises(MissingExtraError, match="trimesh"):
         engine.engine()
+
+
+def test_a_batch_writes_pages_that_name_its_command(tmp_path: Path) -> None:
+    outputs = (("", str(tmp_path / "cube.html")), ("", str(tmp_path / "cube.md")))
+    settings = Settings(passes=("K", "A"), save=saves(["html,md"]), command="curvcli batch 'x/*.obj' -o y")
+    row, failure = run(Item(CUBE, CUBE, outputs), settings, Limits())
+    assert (row.status, failure) == ("ok", None)
+    assert Page((tmp_path / "cube.html").read_bytes()).root.one("code", id="command").text == settings.command
+    assert f"```sh\n{settings.command}\n```" in (tmp_path / "cube.md").read_text()
+    assert settings.digest() == Settings(passes=("K", "A"), save=("html", "md")).digest()
