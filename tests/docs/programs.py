@@ -8,6 +8,9 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
 
 from tests.cli.program import environment
 
@@ -25,16 +28,19 @@ def provide(folder: Path, **programs: str) -> None:
 @contextmanager
 def served(folder: Path, **more: str) -> Iterator[None]:
     """`curvcli` in a folder of programs, as fast as a call. more: environment of the server."""
-    address = folder / "socket"
-    provide(folder, curvcli=f'-S -I "{SERVER}" "{address}" --ask')
-    command = [sys.executable, SERVER, address]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment(**more)) as server:
-        assert server.stdout is not None
-        assert server.stdout.readline() == b"ready\n"
-        try:
-            yield
-        finally:
-            server.terminate()
+    if not hasattr(os, "fork"):
+        pytest.skip("pages are tried where processes fork")
+    with TemporaryDirectory() as place:  # the name of a socket has to be short
+        address = Path(place, "socket")
+        provide(folder, curvcli=f'-S -I "{SERVER}" "{address}" --ask')
+        command = [sys.executable, SERVER, address]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment(**more)) as server:
+            assert server.stdout is not None
+            assert server.stdout.readline() == b"ready\n"
+            try:
+                yield
+            finally:
+                server.terminate()
 
 
 def shell(code: str, folder: Path, programs: Path, **more: str) -> None:

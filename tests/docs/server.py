@@ -6,7 +6,6 @@ command with the streams, the folder and the environment of whoever asks, and en
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import socket
@@ -42,8 +41,6 @@ def serve(address: str) -> None:
     from curvcli.pipeline import load_passes
 
     load_passes()
-    with contextlib.suppress(FileNotFoundError):
-        os.unlink(address)  # of a server that has ended
     with socket.socket(socket.AF_UNIX) as door:
         door.bind(address)
         door.listen()
