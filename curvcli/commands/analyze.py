@@ -11,6 +11,7 @@ import click
 from ..errors import CurvcliError, UsageError
 from ..memory import ran_out
 from . import options
+from .wanted import table_option
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -102,6 +103,7 @@ class Run:
     ) -> None:
         from ..output.formats import format_of
         from ..output.write import check_appearance
+        from ..tables import TABLES
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
         self.weld = options.welding(weld)
@@ -110,7 +112,7 @@ class Run:
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
         self.stream_format = stream_format
         self.appearance: Appearance = options.appearance(conventions, precision)
-        kinds = [table_option(table) for table in tables]
+        kinds = [table_option(table, TABLES) for table in tables]
         self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
         self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]
         kinds_of_output: tuple[Kind, ...] = ("table", "mesh", "report", "page", "picture")
@@ -216,19 +218,6 @@ class Run:
 
             show(analysis, self.verbose)
         return None
-
-
-def table_option(text: str) -> tuple[str, str]:
-    """The kind and the path of --table KIND=PATH.
-
-    Errors: UsageError for an unknown kind, with those there are.
-    """
-    from ..tables import TABLES
-
-    kind, equals, path = text.partition("=")
-    if not equals or not path or kind not in TABLES:
-        raise UsageError(f"--table {text}: expected KIND=PATH with KIND one of {', '.join(TABLES)}")
-    return kind, path
 
 
 def expand(output: str, mesh: str, meshes: int) -> str:

@@ -9,10 +9,10 @@ import click
 from click.core import ParameterSource
 
 from . import options
+from .wanted import one_stdout, tables_and_reports
 
 if TYPE_CHECKING:
     from ..maps import SurfaceMap
-    from ..output.formats import Format, Kind
 
 _TABLES = ("vertices", "faces")
 # Options that make sense only without --map, and only with it.
@@ -131,19 +131,17 @@ def compare_map(
     from ..output.atomic import Outputs
     from ..output.tables import parse_precision
 
-    wanted = _wanted(outputs, tables, stream_format)
-    to_stdout = any(path == "-" for path, _, _ in wanted)
-    if to_stdout and (as_json or get is not None):
-        raise click.UsageError("-o - and --json or --get both want stdout; choose one", click.get_current_context())
+    wanted = tables_and_reports(outputs, tables, _TABLES, stream_format)
+    to_stdout = one_stdout(wanted, as_json, get)
     parse_precision(precision)
     welding = options.welding(weld)
 
     # Outputs are checked before the first surface is read.
-    with Outputs([path for path, _, _ in wanted], force) as files:
+    with Outputs([one.path for one in wanted], force) as files:
         found = _read(a, b, welding, quiet, limits)
-        for path, kind, suffix in wanted:
-            with files.open(path) as stream:
-                _write(stream, found, kind, suffix, precision)
+        for one in wanted:
+            with files.open(one.path) as stream:
+                _write(stream, found, one.kind, one.suffix, precision)
         _tell(found, as_json, get, quiet or to_stdout)
     return 1 if any(check.status == "fail" for check in found.checks) else 0
 
@@ -160,26 +158,6 @@ def _tell(found: SurfaceMap, as_json: bool, get: str | None, quiet: bool) -> Non
         click.echo(look_up(build(found), get))
     elif not quiet:
         show(found)
-
-
-def _wanted(outputs: tuple[str, ...], tables: tuple[str, ...], stream_format: str | None) -> list[tuple[str, str, str]]:
-    """Path, kind and suffix of every output: a table of `vertices` or `faces`, or the `report`."""
-    from ..output.formats import format_of
-
-    def named(path: str, *kinds: Kind) -> Format:
-        return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)
-
-    wanted = []
-    for path in outputs:
-        one = named(path, "table", "report")
-        wanted.append((path, "vertices" if one.kind == "table" else "report", one.suffix))
-    for text in tables:
-        name, equals, path = text.partition("=")
-        if name not in _TABLES or not equals:
-            problem = f"{text!r} is not KIND=PATH with KIND one of {', '.join(_TABLES)}"
-            raise click.BadParameter(problem, param_hint="--table")
-        wanted.append((path, name, named(path, "table").suffix))
-    return wanted
 
 
 def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]) -> SurfaceMap:

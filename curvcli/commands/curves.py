@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import UsageError
 from . import options
+from .wanted import one_stdout, tables_and_reports
 
 if TYPE_CHECKING:
     from ..curves.measure import CurveMeasures
-    from ..output.formats import Format, Kind
     from ..report.curves import CurveReport
+
+_TABLES = ("curves", "vertices")
 
 
 @click.command("curves", short_help="Measure boundary loops and OBJ polylines as space curves.")
@@ -94,20 +95,18 @@ def measure(
     from ..output.atomic import Outputs
     from ..output.tables import parse_precision
 
-    wanted = _wanted(outputs, tables, stream_format)
-    to_stdout = any(path == "-" for path, _, _ in wanted)
-    if to_stdout and (as_json or get is not None):
-        raise UsageError("-o - and --json or --get both want stdout; choose one")
+    wanted = tables_and_reports(outputs, tables, _TABLES, stream_format)
+    to_stdout = one_stdout(wanted, as_json, get)
     parse_precision(precision)
     welding = options.welding(weld)
 
     # Outputs are checked before the file is read.
-    with Outputs([path for path, _, _ in wanted], force) as files:
+    with Outputs([one.path for one in wanted], force) as files:
         measures = _read(file, welding, max_writhe, quiet, limits)
         report = _report(measures, welding, unit)
-        for path, kind, suffix in wanted:
-            with files.open(path) as stream:
-                _write(stream, measures, report, kind, suffix, precision)
+        for one in wanted:
+            with files.open(one.path) as stream:
+                _write(stream, measures, report, one.kind, one.suffix, precision)
         files.commit()
     _tell(report, as_json, get, quiet or to_stdout, verbose)
     return 1 if strict and any(check.status == "fail" for check in report.checks) else 0
@@ -151,25 +150,6 @@ def _tell(report: CurveReport, as_json: bool, get: str | None, quiet: bool, verb
         from ..report.curves_text import show
 
         show(report, verbose)
-
-
-def _wanted(outputs: tuple[str, ...], tables: tuple[str, ...], stream_format: str | None) -> list[tuple[str, str, str]]:
-    """Path, kind and suffix of every output: a table of `curves` or `vertices`, or the `report`."""
-    from ..output.formats import format_of
-
-    def named(path: str, *kinds: Kind) -> Format:
-        return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)
-
-    wanted = []
-    for path in outputs:
-        found = named(path, "table", "report")
-        wanted.append((path, "report" if found.kind == "report" else "vertices", found.suffix))
-    for table in tables:
-        kind, equals, path = table.partition("=")
-        if not equals or not path or kind not in ("curves", "vertices"):
-            raise UsageError(f"--table {table}: expected KIND=PATH with KIND one of curves, vertices")
-        wanted.append((path, kind, named(path, "table").suffix))
-    return wanted
 
 
 def _write(stream: Any, measures: CurveMeasures, report: CurveReport, kind: str, suffix: str, precision: str) -> None:
