@@ -18,7 +18,8 @@ from .declare import AT_SCALE, CELL_AREAS, Element, Quantity, passes
 from .errors import Notice, UsageError
 from .groups import Groups
 from .loading.surfaces import Orient, as_surface
-from .pipeline import at_scales, evaluate, presented, resolve, schedule
+from .pipeline import at_scales, defaults, evaluate, presented, resolve, schedule
+from .precision import precision
 from .regions import Regions, cut_apart, find_regions
 from .regions import findings as region_findings
 from .settings import DEFAULTS, Settings, parse_scales
@@ -49,6 +50,7 @@ class Conventions:
     regions: str | None = None
     scale: str | None = None
     normals: str | None = None
+    noise: str | None = None
 
 
 class Columns(Mapping[str, Array]):
@@ -284,6 +286,7 @@ def analyze(
     rings: str | int | None = None,
     radius: str | float | None = None,
     normals: Literal["mesh", "file"] = "mesh",
+    noise: float | None = None,
 ) -> Analysis:
     """Compute curvatures of a surface, its totals and the identities that prove them.
 
@@ -295,11 +298,12 @@ def analyze(
     (negative: none), or the name of the file, record or property that holds them. checks: names of the identities to
     test, whatever they need; None is those whose needs the chosen passes meet. rings, radius: how far estimates look,
     in rings of edges or at a radius (a length, or mean edge lengths such as `3e`); several (`2e,4e`) give one column
-    for each. normals: whose normals the corrected curvatures use, the mesh's or those the file gives.
+    for each. normals: whose normals the corrected curvatures use, the mesh's or those the file gives. noise: the
+    standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the precision of the coordinates.
     Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
     """
     scales = parse_scales(rings, radius)
-    settings = Settings(scales or DEFAULTS.scales, normals)
+    settings = Settings(scales or DEFAULTS.scales, normals, noise)
     chosen = choose(passes, settings, bool(scales))
     options = (
         ("area", area, tuple(CELL_AREAS)),
@@ -313,7 +317,7 @@ def analyze(
     found = as_surface(surface, orient=orient, weld=weld, normals=normals)
     named = regions if regions is None or isinstance(regions, str) else "array"
     weld = found.file.weld if found.file else "none"
-    conventions = Conventions(mean, area, found.orient, weld, unit, named, *told(chosen, settings))
+    conventions = Conventions(mean, area, found.orient, weld, unit, named, *told(chosen, settings, found))
     named_checks = None if checks is None else known_checks(checks)
     labels = None if regions is None else find_regions(found, regions)
     return Analysis(found, chosen, conventions, labels, named_checks, settings)
@@ -325,19 +329,22 @@ def choose(passes: str | Iterable[str] | None, settings: Settings, scaled: bool)
     A name may say at which of several scales: `K_fit@2e`.
     """
     if passes is None:
-        passes = ("core", "estimates") if scaled else "core"
+        passes = defaults(scaled, settings.noise is not None)
     names = [passes] if isinstance(passes, str) else list(passes)
     at_one = [name for name in names if AT_SCALE in name]
     return list(dict.fromkeys([*at_scales(resolve(name for name in names if AT_SCALE not in name), settings), *at_one]))
 
 
-def told(chosen: Iterable[str], settings: Settings) -> tuple[str | None, str | None]:
-    """The scales and the normals that the chosen columns depend on, None where they do not."""
+def told(chosen: Iterable[str], settings: Settings, surface: Surface) -> tuple[str | None, str | None, str | None]:
+    """The scales, the normals and the noise that the chosen columns depend on, None where they do not."""
     plain = {name.partition(AT_SCALE)[0] for name in chosen}
     scaled = any(passes.depends_on_scale(name) for name in plain)
-    used = any("normals" in one.needs for one in schedule(plain, "barycentric"))
+    used = {need for one in schedule(plain, "barycentric") for need in one.needs}
     scales = ",".join(scale.name for scale in settings.scales)
-    return scales if scaled else None, settings.normals if used else None
+    noise = None
+    if "noise" in used:
+        noise = repr(precision(surface).deviation if settings.noise is None else settings.noise)
+    return scales if scaled else None, settings.normals if "normals" in used else None, noise
 
 
 def known_checks(names: Iterable[str]) -> list[str]:

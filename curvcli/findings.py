@@ -50,6 +50,13 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
             "the mesh is coarse or rough there: no smooth surface has such curvatures",
         )
+    if "below_noise" in columns:
+        yield Notice.at(
+            "below_noise",
+            np.flatnonzero(columns["below_noise"]),
+            "[vertex|vertices] where |K| is below its own uncertainty K_sigma",
+            "the noise of the coordinates alone explains K there; estimates over more rings average noise out",
+        )
     if "voronoi_unfinished" in columns:
         yield Notice.at(
             "voronoi_unfinished",

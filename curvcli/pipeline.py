@@ -29,6 +29,15 @@ CORE = (
 )
 
 
+# What noise of the coordinates makes of K and h.
+UNCERTAINTIES = ("K_sigma", "h_sigma")
+
+
+def defaults(scaled: bool, noisy: bool) -> tuple[str, ...]:
+    """What is computed where nothing is named: core, estimates where a scale is asked for, uncertainties with noise."""
+    return ("core", *(("estimates",) if scaled else ()), *(UNCERTAINTIES if noisy else ()))
+
+
 def resolve(names: Iterable[str]) -> list[str]:
     """Quantity names for what a user asked for: names, stems of vectors, comma lists and presets, in table order.
 

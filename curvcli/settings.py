@@ -113,11 +113,16 @@ class Settings:
 
     scales: each gives one column per estimator. normals: of the `mesh`, or those of the `file`.
     noise: standard deviation of each coordinate in the file's unit; None is the precision of the file.
+    Errors: UsageError for a noise that is negative or no number.
     """
 
     scales: tuple[Scale, ...] = (DEFAULT_SCALE,)
     normals: Literal["mesh", "file"] = "mesh"
     noise: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.noise is not None and not (math.isfinite(self.noise) and self.noise >= 0):
+            raise UsageError(f"a noise of {self.noise:g}: expected the standard deviation of a coordinate, 0 or more")
 
     @property
     def scale(self) -> Scale:

@@ -16,7 +16,8 @@ Array = NDArray[Any]
 
 _ = curvcli.passes  # importing registers them
 
-PUBLIC: dict[str, Quantity] = {quantity.name: quantity for quantity in passes.quantities()}
+# What follows from the precision of the coordinates changes with it, as they are moved and scaled.
+PUBLIC: dict[str, Quantity] = {q.name: q for q in passes.quantities() if "noise" not in passes.provider(q.name).needs}
 
 # A square root of a difference that vanishes at umbilics loses half the digits there, and quotients of its values too.
 HALF_THE_DIGITS = {"kappa_1", "kappa_2", "curvedness", "shape_index"}

@@ -19,10 +19,10 @@ from tests.columns import PUBLIC
 def test_presets() -> None:
     assert resolve(["core"]) == list(CORE)
     assert resolve(["topology"]) == ["status", "degree"]
-    assert set(resolve(["all"])) == set(PUBLIC)
+    assert set(resolve(["all"])) == {quantity.name for quantity in passes.quantities()}
     paper = resolve(["paper"])
     assert set(CORE) - {"status", "degree"} <= set(paper) <= set(PUBLIC)
-    vertex = [name for name in resolve(["all"]) if PUBLIC[name].on == "vertex"]
+    vertex = [name for name in resolve(["all"]) if passes.quantity(name).on == "vertex"]
     assert vertex == [name for name in ORDER if name in vertex] + [name for name in vertex if name not in ORDER]
 
 

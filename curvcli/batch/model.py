@@ -44,6 +44,7 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
     rings: str | None = None
     radius: str | None = None
     normals: str = "mesh"
+    noise: float | None = None
     input_format: str | None = None
     max_faces: int | None = None
     max_bytes: int | None = None

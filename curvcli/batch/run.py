@@ -54,7 +54,7 @@ def _analysed(item: Item, settings: Settings) -> Analysis:
     with _timed(timings, "compute"):
         conventions: dict[str, Any] = {
             key: getattr(settings, key)
-            for key in ("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals")
+            for key in ("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise")
         }
         analysis = analyze(surface, settings.passes, **conventions)
     with _timed(timings, "check"):

@@ -167,6 +167,8 @@ def _made_with(side: Read) -> dict[str, Any]:
         made |= options_of(side.report["conventions"]["scale"])
     if side.report["conventions"].get("normals") is not None:
         made["normals"] = side.report["conventions"]["normals"]
+    if side.report["conventions"].get("noise") is not None:
+        made["noise"] = float(side.report["conventions"]["noise"])
     if side.report["conventions"].get("weld") not in (None, "none"):
         made["weld"] = options.welding(side.report["conventions"]["weld"])
     if side.report["conventions"].get("regions") not in (None, "array"):

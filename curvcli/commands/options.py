@@ -125,6 +125,13 @@ estimating = together(
         show_default=True,
         help="Normals that corrected curvatures use: of the triangles, or those in the file (nx ny nz, vn).",
     ),
+    click.option(
+        "--noise",
+        type=click.FloatRange(0),
+        metavar="SIGMA",
+        help="Standard deviation of each coordinate, for K_sigma and h_sigma, which it adds to core where -p is not "
+        "given.  [default: the precision of the file]",
+    ),
 )
 drawing = together(
     click.option(
@@ -182,11 +189,11 @@ def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str]
 
     Errors: UsageError for an unknown name or a scale that is none.
     """
-    from ..pipeline import at_scales, resolve
+    from ..pipeline import at_scales, defaults, resolve
     from ..settings import DEFAULTS, Settings, parse_scales
 
     scales = parse_scales(settings["rings"], settings["radius"])
-    names = resolve(passes or (("core", "estimates") if scales else ("core",)))
+    names = resolve(passes or defaults(bool(scales), settings.get("noise") is not None))
     return names, at_scales(names, Settings(scales or DEFAULTS.scales))
 
 

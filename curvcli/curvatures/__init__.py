@@ -20,4 +20,5 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     vertex_normals,
     corrected,
     fits,
+    uncertainty,
 )

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 Value = float | list[float | None] | None
 
 # Of the analysis, in the order of the report.
-CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals")
+CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals", "noise")
 
 
 class Input(msgspec.Struct):

@@ -150,6 +150,8 @@ def _conventions(report: Report) -> str:
         rest += f"; estimates at {in_words(chosen['scale'])}"
     if chosen["normals"] is not None:
         rest += f", normals of the {chosen['normals']}"
+    if chosen["noise"] is not None:
+        rest += f"; noise {float(chosen['noise']):.2g}"
     return f"H = {mean}, positive where convex; {rest}"
 
 

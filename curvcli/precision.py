@@ -1,0 +1,74 @@
+"""How exactly the coordinates of a mesh are known: to the last digit written, or the last bit stored."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .surface import Surface
+
+# A value that is rounded to a step is off by step/√12 in the root of the mean square.
+_UNIFORM = 1 / math.sqrt(12)
+# Decimals are looked for in the largest coordinates, down to this part of the largest, and up to so many digits.
+_DECADE, _DIGITS = 0.1, 14
+_SAMPLE = 4096
+
+
+class Precision(NamedTuple):
+    """Standard deviation of each coordinate in the file's unit, and the words for what it follows from."""
+
+    deviation: float
+    reason: str
+
+
+def precision(surface: Surface) -> Precision:
+    """How far rounding has moved the coordinates of a surface, told from their values.
+
+    Those that are all float32 numbers are taken as stored so; those that are all short decimals as written with so many
+    digits after the point; the finer of the two where both hold, as for whole numbers; else they are doubles.
+    """
+    used = surface.xyz_given if surface.referenced.all() else surface.xyz_given[:, surface.referenced]
+    largest = float(np.abs(used).max())
+    places = decimals(used, largest)
+    if is_single(used):
+        limit = float(np.finfo(np.float32).max) / 2
+        step, reason = float(np.spacing(np.float32(min(largest, limit)))), "float32"
+        if places is not None and 10.0**-places < step:
+            step, reason = 10.0**-places, _written(places)
+    elif places is not None:
+        step, reason = 10.0**-places, _written(places)
+    else:
+        step, reason = float(np.spacing(largest)), "float64"
+    return Precision(step * _UNIFORM, reason)
+
+
+def _written(places: int) -> str:
+    return f"{places} decimal{'' if places == 1 else 's'}"
+
+
+def is_single(values: NDArray[np.float64]) -> bool:
+    """Whether every value is a float32 number, as in binary STL and most PLY files."""
+    with np.errstate(over="ignore", under="ignore"):
+        return all(bool((row.astype(np.float32) == row).all()) for row in values)
+
+
+def decimals(values: NDArray[np.float64], largest: float) -> int | None:
+    """How many digits after the point the large values have; None for as many as doubles hold, or none at all."""
+    if not 0 < largest < math.inf:
+        return None
+    large = np.abs(values[np.abs(values) >= _DECADE * largest])
+    some = large[:: max(len(large) // _SAMPLE, 1)]
+    before = math.floor(math.log10(largest)) + 1
+    for places in range(max(0, 1 - before), _DIGITS - before + 1):
+        if _multiples(some, places) and _multiples(large, places):
+            return places
+    return None
+
+
+def _multiples(values: NDArray[np.float64], places: int) -> bool:
+    """Whether values are, to the rounding of doubles, multiples of that power of ten."""
+    scaled = values * 10.0**places
+    return bool((np.abs(scaled - np.rint(scaled)) <= 2 * np.finfo(np.float64).eps * scaled).all())
