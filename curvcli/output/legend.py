@@ -68,13 +68,17 @@ def range_words(value_range: str | None, signed: bool) -> str:
     return f"p{50 - share / 2:02g} to p{50 + share / 2:02g}"
 
 
-def cut_words(scale: ColorScale) -> str:
-    """How many values lie outside the range."""
-    if scale.low is None:
-        return "no value is defined"
+def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> str:
+    """The range of a column's colours, how it was chosen, and how many values lie outside it."""
+    if scale.low is None or scale.high is None:
+        return "undefined at every vertex"
+    behind = f" {unit}" if unit else ""
     parts = ((scale.clipped_below, "below"), (scale.clipped_above, "above"))
-    found = [f"{count:,} {where}" for count, where in parts if count]
-    return f"cuts {' and '.join(found)}" if found else "cuts nothing"
+    cut = [f"{count:,} {where}" for count, where in parts if count]
+    if scale.low == scale.high and not cut:
+        return f"{number(scale.low)}{behind} wherever defined"
+    ends = f"{number(scale.low)} to {number(scale.high)}{behind}"
+    return f"{ends} ({range_words(value_range, scale.signed)}), cuts {' and '.join(cut) or 'nothing'}"
 
 
 def sentence(colored: Colored, value_range: str | None, length: str | None) -> str:
@@ -82,13 +86,8 @@ def sentence(colored: Colored, value_range: str | None, length: str | None) -> s
     scale = colored.scale
     if scale.categories:
         return f"{colored.name}: " + ", ".join(f"{one.count:,} {one.name}" for one in scale.categories)
-    if scale.low is None or scale.high is None:
-        return f"{colored.name}: undefined at every vertex"
-    unit = colored.unit(length)
-    ends = f"{number(scale.low)} to {number(scale.high)}{' ' + unit if unit else ''}"
-    words = range_words(value_range, scale.signed)
-    undefined = f"; {scale.nulls:,} undefined" if scale.nulls else ""
-    return f"{colored.name}: colours from {ends} ({words}), {cut_words(scale)}{undefined}"
+    undefined = f"; {scale.nulls:,} undefined" if scale.nulls and scale.low is not None else ""
+    return f"{colored.name}: {range_text(scale, value_range, colored.unit(length))}{undefined}"
 
 
 def mesh_name(analysis: Analysis) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .legend import Colored, cut_words, number, raised, range_words, ticks
+from .legend import Colored, raised, range_text, ticks
 from .sheet import Box, Color, Item, Sheet
 
 
@@ -54,10 +54,7 @@ def legend(one: Colored, value_range: str | None) -> list[Item]:
     scale = one.scale
     if scale.categories:
         return [Item(f"{c.name} {c.count:,}", "square", shares(c.color)) for c in scale.categories]
-    items = []
-    if scale.low is not None and scale.high is not None:
-        words = range_words(value_range, scale.signed)
-        items.append(Item(f"{number(scale.low)} to {number(scale.high)} ({words}), {cut_words(scale)}"))
+    items = [Item(range_text(scale, value_range))]
     if scale.nulls:
         items.append(Item(f"undefined {scale.nulls:,}", "square", shares(scale.undefined)))
     return items
