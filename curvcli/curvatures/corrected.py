@@ -14,7 +14,8 @@ from ..settings import Scale
 from ..surface import Surface
 from ..threads import for_each
 from ..topology import Index
-from .tensor import ENTRIES, line, tangential
+from .star import null_where
+from .tensor import ENTRIES, half_gap, line, tangential
 
 # Below this part of the area the normals do not belong to the faces, and what is divided by Σμ₀ means nothing.
 _ASTRAY = 0.25
@@ -32,98 +33,131 @@ _SHARED: dict[str, Any] = {
 }
 
 
-def _quantity(name: str, symbol: str, formula: str, description: str, **fields: Any) -> Quantity:
-    return Quantity(name, symbol=symbol, formula=formula, description=description, **_SHARED, **fields)
-
-
-_DENSITY: dict[str, Any] = {"kind": "density", "length_exponent": -1, "parity": "odd", "signed": True}
-_LINE: dict[str, Any] = {"kind": "direction", "vector": True}
-
-
 @curvature_pass(
     provides=(
-        _quantity(
-            "K_corrected",
-            "K̂",
-            "Σμ₂/Σμ₀ over the neighbourhood, μ₀ = ½⟨ū, d₁ × d₂⟩, μ₂ = ½⟨u₀, u₁ × u₂⟩; sharpened",
-            "Gauss curvature estimated from interpolated normals at the scale of --rings or --radius.",
-            kind="density",
-            length_exponent=-2,
-            signed=True,
-        ),
-        _quantity(
-            "h_corrected",
-            "Ĥ",
-            "Σμ₁/Σμ₀, μ₁ = ½⟨ū, e₁ × d₂ + d₁ × e₂⟩, d and e the differences of positions and of normals; sharpened",
-            "Mean curvature κ₁ + κ₂ estimated from interpolated normals, positive where convex.",
-            mean_degree=1,
-            **_DENSITY,
-        ),
-        _quantity(
-            "kappa_1_corrected",
-            "κ̂₁",
-            "Ĥ/2 + half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
-            "Larger principal curvature estimated from interpolated normals.",
-            partner="kappa_2_corrected",
-            **_DENSITY,
-        ),
-        _quantity(
-            "kappa_2_corrected",
-            "κ̂₂",
-            "Ĥ/2 − half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
-            "Smaller principal curvature estimated from interpolated normals.",
-            partner="kappa_1_corrected",
-            **_DENSITY,
-        ),
-        _quantity(
-            "dir_1_corrected",
-            "**ê**₁",
-            "tangential eigenvector of Σμ_XY to the larger eigenvalue",
-            "Direction of kappa_1_corrected, a line; null also at umbilics.",
-            partner="dir_2_corrected",
-            **_LINE,
-        ),
-        _quantity(
-            "dir_2_corrected",
-            "**ê**₂",
-            "tangential eigenvector of Σμ_XY to the smaller eigenvalue",
-            "Direction of kappa_2_corrected, a line; null also at umbilics.",
-            partner="dir_1_corrected",
-            **_LINE,
-        ),
+        Quantity("corrected_gauss", public=False, length_exponent=-2),
+        Quantity("corrected_tensor", public=False, length_exponent=-1, parity="odd"),
+        Quantity("corrected_area", public=False, length_exponent=2),
     )
 )
-def corrected_curvatures(surface: Surface, scale: Scale, fitted_normal: VectorColumn) -> tuple[Column, ...]:
-    """Curvature measures of the triangles with their normals interpolated, divided by the measure of area.
+def corrected_measures(surface: Surface, scale: Scale, fitted_normal: VectorColumn) -> tuple[Column, ...]:
+    """Σμ₂/Σμ₀ (V,) and Σμ_XY/Σμ₀ (6, V), sharpened, and Σμ₀.
 
     Each face's measures go to its corners in equal parts and are summed over neighbourhoods. What an average over a
-    neighbourhood takes off the peaks is estimated by averaging once more, and given back (sharpened): x̂ = 2 x̄ − x̿.
+    neighbourhood takes off the peaks is estimated by averaging once more, and given back: x̂ = 2 x̄ − x̿.
     """
     normal = np.where(surface.nonmanifold, np.nan, fitted_normal)
     corners = _Corners(surface)
     measures = _measures(surface, normal)
     mean = _divided(sums(surface, scale, corners.gather(measures)))
     again = _divided(sums(surface, scale, corners.gather(_spread(surface, measures[:, _MU_0], mean))))
-    del measures
-    K, h = np.full((2, surface.n_vertices), np.nan)
-    half, directions = np.full(surface.n_vertices, np.nan), np.full((2, 3, surface.n_vertices), np.nan)
-
-    def finish(block: slice) -> None:
-        sharp = np.ascontiguousarray((2 * mean[block, _MU_2:] - again[block, _MU_2:]).T)
+    found = np.empty((7, surface.n_vertices))
+    for block in face_blocks(surface.n_vertices):
         known = np.isfinite(normal[:, block]).all(axis=0)
-        oriented = known & ~surface.without_orientation[block]
-        K[block] = np.where(known, sharp[0], np.nan)
-        tensor = sharp[1:]
-        h[block] = np.where(oriented, tensor[0] + tensor[3] + tensor[5], np.nan)
-        _, apart, *pair = tangential(tensor, normal[:, block])
-        half[block] = apart
-        # The rounding of unit normals is that of curvatures the size of a face.
-        rounding = np.abs(tensor).max(axis=0) + 1 / np.sqrt(mean[block, _MU_0])
-        distinct = oriented & (apart > _UMBILIC * rounding)
-        directions[:, :, block] = np.where(distinct, [line(vector) for vector in pair], np.nan)
+        sharp = 2 * mean[block, _MU_2:] - again[block, _MU_2:]
+        found[:, block] = np.where(known, sharp.T, np.nan)
+    return found[0], found[1:], mean[:, _MU_0].copy()
 
-    for_each(face_blocks(surface.n_vertices), finish)
-    return K, h, 0.5 * h + half, 0.5 * h - half, directions[0], directions[1]
+
+@curvature_pass(
+    symbol="K̂",
+    formula="Σμ₂/Σμ₀ over the neighbourhood, μ₀ = ½⟨ū, d₁ × d₂⟩, μ₂ = ½⟨u₀, u₁ × u₂⟩; sharpened",
+    kind="density",
+    length_exponent=-2,
+    signed=True,
+    **_SHARED,
+)
+def K_corrected(corrected_gauss: Column) -> Column:
+    """Gauss curvature estimated from interpolated normals at the scale of --rings or --radius."""
+    return corrected_gauss
+
+
+_DENSITY: dict[str, Any] = {"kind": "density", "length_exponent": -1, "parity": "odd", "signed": True, **_SHARED}
+
+
+@curvature_pass(
+    symbol="Ĥ",
+    formula="Σμ₁/Σμ₀, μ₁ = ½⟨ū, e₁ × d₂ + d₁ × e₂⟩, d and e the differences of positions and of normals; sharpened",
+    mean_degree=1,
+    **_DENSITY,
+)
+def h_corrected(surface: Surface, corrected_tensor: Column) -> Column:
+    """Mean curvature κ₁ + κ₂ estimated from interpolated normals, positive where convex."""
+    return null_where(surface.without_orientation, corrected_tensor[0] + corrected_tensor[3] + corrected_tensor[5])
+
+
+@curvature_pass(
+    provides=(
+        Quantity(
+            "kappa_1_corrected",
+            symbol="κ̂₁",
+            formula="Ĥ/2 + half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
+            description="Larger principal curvature estimated from interpolated normals.",
+            partner="kappa_2_corrected",
+            **_DENSITY,
+        ),
+        Quantity(
+            "kappa_2_corrected",
+            symbol="κ̂₂",
+            formula="Ĥ/2 − half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
+            description="Smaller principal curvature estimated from interpolated normals.",
+            partner="kappa_1_corrected",
+            **_DENSITY,
+        ),
+    )
+)
+def corrected_principal_curvatures(
+    surface: Surface, corrected_tensor: Column, fitted_normal: VectorColumn, h_corrected: Column
+) -> tuple[Column, ...]:
+    """Principal curvatures of the corrected tensor within the tangent planes, about half its trace."""
+    half = np.empty(surface.n_vertices)
+
+    def halve(block: slice) -> None:
+        half[block] = half_gap(corrected_tensor[:, block], fitted_normal[:, block])
+
+    for_each(face_blocks(surface.n_vertices), halve)
+    return 0.5 * h_corrected + half, 0.5 * h_corrected - half
+
+
+_LINE: dict[str, Any] = {"kind": "direction", "vector": True, **_SHARED}
+
+
+@curvature_pass(
+    provides=(
+        Quantity(
+            "dir_1_corrected",
+            symbol="**ê**₁",
+            formula="tangential eigenvector of Σμ_XY to the larger eigenvalue",
+            description="Direction of kappa_1_corrected, a line; null also at umbilics and without an orientation.",
+            partner="dir_2_corrected",
+            **_LINE,
+        ),
+        Quantity(
+            "dir_2_corrected",
+            symbol="**ê**₂",
+            formula="tangential eigenvector of Σμ_XY to the smaller eigenvalue",
+            description="Direction of kappa_2_corrected, a line; null also at umbilics and without an orientation.",
+            partner="dir_1_corrected",
+            **_LINE,
+        ),
+    )
+)
+def corrected_directions(
+    surface: Surface, corrected_tensor: Column, fitted_normal: VectorColumn, corrected_area: Column
+) -> tuple[VectorColumn, ...]:
+    """Eigenvectors of the corrected tensor within the tangent planes: lines, their largest component positive."""
+    found = np.empty((2, 3, surface.n_vertices))
+
+    def turn(block: slice) -> None:
+        tensor = corrected_tensor[:, block]
+        _, gap, *pair = tangential(tensor, fitted_normal[:, block])
+        # The rounding of unit normals is that of curvatures the size of a face.
+        rounding = np.abs(tensor).max(axis=0) + 1 / np.sqrt(corrected_area[block])
+        distinct = (gap > _UMBILIC * rounding) & ~surface.without_orientation[block]
+        found[:, :, block] = np.where(distinct, [line(vector) for vector in pair], np.nan)
+
+    for_each(face_blocks(surface.n_vertices), turn)
+    return found[0], found[1]
 
 
 class _Corners:

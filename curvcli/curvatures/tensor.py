@@ -27,6 +27,13 @@ def frame(normal: VectorColumn) -> tuple[Floats, Floats]:
     return u, v
 
 
+def half_gap(tensor: Floats, normal: VectorColumn) -> Floats:
+    """Half the difference (≥ 0) of the two tangential eigenvalues of a tensor (6, n); normal (3, n), of unit length."""
+    u, v = frame(normal)
+    image_u, image_v = ([dot(tensor[row], w) for row in WHERE] for w in (u, v))
+    return np.asarray(np.hypot(0.5 * (dot(u, image_u) - dot(v, image_v)), dot(u, image_v)))
+
+
 def tangential(tensor: Floats, normal: VectorColumn) -> tuple[Floats, Floats, Floats, Floats]:
     """Half the sum and half the difference (≥ 0) of the two tangential eigenvalues, and the unit eigenvectors of the
     larger and the smaller one.
