@@ -46,11 +46,13 @@ def corrected_measures(surface: Surface, scale: Scale, fitted_normal: VectorColu
     Each face's measures go to its corners in equal parts and are summed over neighbourhoods. What an average over a
     neighbourhood takes off the peaks is estimated by averaging once more, and given back: x̂ = 2 x̄ − x̿.
     """
-    normal = np.where(surface.nonmanifold, np.nan, fitted_normal)
+    normal = fitted_normal if surface.is_manifold else np.where(surface.nonmanifold, np.nan, fitted_normal)
     corners = _Corners(surface)
     measures = _measures(surface, normal)
     mean = _divided(sums(surface, scale, corners.gather(measures)))
-    again = _divided(sums(surface, scale, corners.gather(_spread(surface, measures[:, _MU_0], mean))))
+    _spread(surface, mean, measures)
+    again = _divided(sums(surface, scale, corners.gather(measures)))
+    del measures
     found = np.empty((7, surface.n_vertices))
     for block in face_blocks(surface.n_vertices):
         known = np.isfinite(normal[:, block]).all(axis=0)
@@ -226,9 +228,8 @@ def _divided(total: Floats) -> Floats:
     return total
 
 
-def _spread(surface: Surface, mu_0: Floats, density: Floats) -> Floats:
-    """(F, 9) the measures of a density that is given at the vertices, as `_measures` has them."""
-    found = np.empty((surface.n_faces, 9))
+def _spread(surface: Surface, density: Floats, measures: Floats) -> None:
+    """Replace the measures of the faces by those of a density that is given at the vertices; μ₀ stays."""
     sign = surface.corner_sign
 
     def spread(block: slice) -> None:
@@ -238,11 +239,11 @@ def _spread(surface: Surface, mu_0: Floats, density: Floats) -> Floats:
             if sign is not None:
                 each[:, _TENSOR] *= sign[block, k, None]
             total += each
-        total *= mu_0[block, None] / 3
-        total[:, _MU_0] = mu_0[block]
-        total[:, _AREA] = np.abs(mu_0[block])
+        mu_0 = measures[block, _MU_0].copy()
+        total *= mu_0[:, None] / 3
+        total[:, _MU_0] = mu_0
+        total[:, _AREA] = np.abs(mu_0)
         total[np.isnan(total[:, _MU_2])] = 0.0
-        found[block] = total
+        measures[block] = total
 
     for_each(face_blocks(surface.n_faces), spread)
-    return found

@@ -57,10 +57,12 @@ def star_normal(surface: Surface, normals: Literal["mesh", "file"]) -> VectorCol
 
 def _unit(vector: Floats) -> VectorColumn:
     """Vectors of unit length, null where there is none or it is no number."""
-    largest = np.abs(vector).max(axis=0)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        scaled = vector / largest
-        unit: VectorColumn = scaled / np.sqrt(dot(scaled, scaled))
+    unit: VectorColumn = np.empty_like(vector)
+    for block in face_blocks(vector.shape[1]):
+        each = vector[:, block]
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            scaled = each / np.abs(each).max(axis=0)
+            np.divide(scaled, np.sqrt(dot(scaled, scaled)), out=unit[:, block])
     return unit
 
 
@@ -88,12 +90,15 @@ def fitted_normal(
     if normals == "file":
         return star_normal
     known: Flags = np.logical_and.reduce(np.isfinite(star_normal))
-    weight = np.where(known, np.where(surface.interior, 1.0, _ONE_SIDED), 0.0)
-    fit = _Fit(surface, scale, None if bool((weight == 1).all()) else weight)
-    normal = np.where(known, star_normal, 0.0)
+    everywhere = bool(known.all())
+    weight = None
+    if not everywhere or not surface.interior.all():
+        weight = np.where(known, np.where(surface.interior, 1.0, _ONE_SIDED), 0.0)
+    fit = _Fit(surface, scale, weight)
+    normal = star_normal if everywhere else np.where(known, star_normal, 0.0)
     for step in _DAMPED if scale == rings(1) else _FULL:
         normal = fit.turned(normal, step)
-    return null_where(~known, normal)
+    return normal if everywhere else null_where(~known, normal)
 
 
 class _Fit:
