@@ -22,17 +22,16 @@ void main() {
   }
   gl_FragColor = vec4(color * light, 1.0);
 }`;
-// A line of some pixels: each segment is a rectangle, widened on the screen and drawn a little nearer than the faces.
+// A line of some pixels: each segment is a rectangle, widened on the screen and a little nearer to the eye than the faces.
 const RIBBON = `
 attribute vec3 from; attribute vec3 to; uniform vec2 pixels; uniform float width;
 void main() {
-  vec4 a = projectionMatrix * modelViewMatrix * vec4(from, 1.0);
-  vec4 b = projectionMatrix * modelViewMatrix * vec4(to, 1.0);
+  vec4 a = projectionMatrix * vec4((modelViewMatrix * vec4(from, 1.0)).xyz * 0.997, 1.0);
+  vec4 b = projectionMatrix * vec4((modelViewMatrix * vec4(to, 1.0)).xyz * 0.997, 1.0);
   vec2 along = (b.xy / b.w - a.xy / a.w) * pixels;
   along = length(along) > 0.0 ? normalize(along) : vec2(1.0, 0.0);
   vec4 at = mix(a, b, position.x);
   at.xy += (vec2(-along.y, along.x) * position.y + along * (2.0 * position.x - 1.0) * 0.5) * width / pixels * at.w;
-  at.z -= 0.0008 * at.w;
   gl_Position = at;
 }`;
 const PLAIN = "uniform vec3 color; void main() { gl_FragColor = vec4(color, 1.0); }";
