@@ -52,7 +52,7 @@ def star_areas(points: Any, faces: Any) -> Floats:
     """A third of the area of the faces at each vertex."""
     a, b, c = (np.asarray(points, np.float64)[np.asarray(faces)[:, k]] for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 6
-    return np.bincount(np.asarray(faces).ravel(), np.repeat(area, 3), len(points))
+    return np.asarray(np.bincount(np.asarray(faces).ravel(), np.repeat(area, 3), len(points)), np.float64)
 
 
 def mixed_areas(points: Any, faces: Any) -> Floats:

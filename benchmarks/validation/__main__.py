@@ -49,8 +49,10 @@ What to read from it:
   except `K_density` by Voronoi cells on the sphere: the star shrinks, but it does not become rounder. That is no
   contradiction to exactness: `K`, `H_vec` and `A_vec` keep their sums, and sums over pieces of fixed size converge, as
   `area` and `H_theta` do in the second tables; the Willmore energies, sums of squares, do not.
-* The corrected columns look at more than one star and take a normal at each vertex; they converge on both. On spheres
-  they are exact where those normals are.
+* Estimates look further: two rings in the first tables, a fixed radius in the third. At a fixed radius more and more
+  stars are summed, and all of them converge, until what the radius itself blurs is left. Within two rings there is
+  always the same number of faces, and only those that also fit or correct a normal converge.
+* On spheres the corrected measures are exact where the normals are.
 """
 
 EXACT = """## Exact arithmetic
@@ -133,8 +135,23 @@ def one_surface(name: str, folder: Path, sizes: tuple[int, ...]) -> str:
             f"![Errors on the {name}](validation/{name}.png)\n",
             table(header, rows),
             table(["total", *(f"{kind}: {what}" for kind in sums for what in ("error", "order"))], totals),
+            at_radius(name, sizes),
         ]
     )
+
+
+def at_radius(name: str, sizes: tuple[int, ...]) -> str:
+    """The table of the estimates at a fixed radius."""
+    found = {kind: convergence.fixed_radius(name, kind, sizes) for kind in SURFACES[name]}
+    radii = ", ".join(f"{radius:.2g} ({kind})" for kind, (radius, _) in found.items())
+    rows = []
+    for row in next(iter(found.values()))[1]:
+        cells = [f"`{row}`"]
+        for _, courses in found.values():
+            cells += [number(courses[row].mean[-1]), slope(courses[row], courses[row].mean)]
+        rows.append(cells)
+    header = [f"within {radii}", *(f"{kind}: {what}" for kind in found for what in ("mean", "order"))]
+    return table(header, rows)
 
 
 def page(folder: Path, sizes: tuple[int, ...] = SIZES) -> str:

@@ -20,6 +20,12 @@ Floats = NDArray[np.float64]
 SIZES = (600, 2400, 9600, 38400)
 AREAS = ("barycentric", "mixed", "voronoi")
 
+# Columns that look as far as --rings or --radius say.
+SCALED = ("_ring", "_corrected", "_fit")
+
+# A fixed radius, in mean edges of the coarsest mesh; finer meshes have more and more vertices within it.
+RADIUS = 2.5
+
 # Errors below this part of the largest curvature are rounding, and have no order.
 ROUNDING = 1e-10
 
@@ -61,9 +67,14 @@ def limit(quantity: Quantity) -> str:
 
 
 def densities() -> list[Quantity]:
-    """Every density of a vertex that is not a spread or a count."""
-    _ = curvcli.passes  # importing registers them
-    return [q for q in curvcli.passes.quantities("vertex") if q.kind == "density" and not q.vector]
+    """Every density of a vertex that estimates a curvature; a standard deviation does not."""
+    known = curvcli.passes.quantities("vertex")
+    return [q for q in known if q.kind == "density" and not q.vector and not q.name.endswith("_sigma")]
+
+
+def estimates() -> list[Quantity]:
+    """Those that look at a neighbourhood whose size can be chosen."""
+    return [q for q in densities() if q.name.endswith(SCALED)]
 
 
 def measured(analysis: Analysis, mesh: Mesh, found: Floats, tends_to: str) -> tuple[float, float]:
@@ -119,6 +130,23 @@ def converge(surface: str, triangulation: str, sizes: tuple[int, ...] = SIZES) -
                 largest, mean = measured(analysis, mesh, found, tends_to)
                 courses.setdefault(name, Course()).add(float(analysis.edges["length"].mean()), largest, mean)
     return courses
+
+
+def fixed_radius(surface: str, triangulation: str, sizes: tuple[int, ...]) -> tuple[float, dict[str, Course]]:
+    """The radius, and the course of every estimate that looks just so far, on all but the finest mesh."""
+    courses: dict[str, Course] = {}
+    radius = 0.0
+    for size in sizes[:-1] or sizes:
+        mesh = SURFACES[surface][triangulation](size)
+        given = curvcli.Surface(mesh.points, mesh.faces)
+        edge = float(curvcli.analyze(given, ["A"], checks=()).edges["length"].mean())
+        radius = radius or RADIUS * edge
+        analysis = curvcli.analyze(given, [*(q.name for q in estimates()), "A"], radius=radius, checks=())
+        for quantity in estimates():
+            found = next(column for name, column in analysis.vertices.items() if name.startswith(quantity.name))
+            largest, mean = measured(analysis, mesh, found, limit(quantity))
+            courses.setdefault(quantity.name, Course()).add(edge, largest, mean)
+    return radius, courses
 
 
 TOTALS = ("area", "H_theta", "willmore", "willmore_hks")

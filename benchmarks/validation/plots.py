@@ -10,10 +10,11 @@ from .convergence import Course
 SHOWN = (
     "h_signed",
     "K_density",
-    "kappa_1",
+    "h_ring",
     "h_corrected",
     "K_corrected",
-    "kappa_1_corrected",
+    "h_fit",
+    "K_fit",
     "libigl `principal_curvature`, κ₁",
     "VTK mean, twice",
 )
