@@ -48,8 +48,8 @@ class Course:
         self.mean.append(mean)
 
     def order(self, errors: list[float]) -> float:
-        """The slope of the error over the edge length, both logarithmic; NaN where the error is rounding."""
-        if min(errors) < ROUNDING:
+        """The slope of the error over the edge length, both logarithmic; NaN for one mesh, and for rounding."""
+        if len(errors) < 2 or min(errors) < ROUNDING:
             return float("nan")
         return float(np.polyfit(np.log(self.edge), np.log(errors), 1)[0])
 
