@@ -17,8 +17,9 @@ SAMPLES = 64
 @check(
     gap="gradient − central difference, in units of its error bound",
     applies="64 vertices spread over those that no degenerate face touches",
-    bound="1, in units of the error of the difference: for area truncation, step² · Σ|e|/height², and rounding, r/step; "
-    "for volume r, with r = (16 + faces)ε · Σ(reach² + reach·|e|) and step = ε^⅓ · the least height at the vertex",
+    bound="1, in units of the error of the difference: for area truncation, step² · Σ|e|/height², and rounding, "
+    "r/step; for volume r. Here r = (16 + faces)ε · Σ(reach² + reach·|e|), and step = ε^⅓ · the least height at the "
+    "vertex",
     failure="a gradient is not the derivative of what it is named after. This is the one identity that moves "
     "vertices: it does not share its formulas with what it tests.",
 )
