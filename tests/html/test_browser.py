@@ -105,6 +105,26 @@ def test_keys_turn_the_surface_and_bring_it_back(bumpy: Any) -> None:
     np.testing.assert_array_equal(tab.picture(), before)
 
 
+def test_a_drag_turns_and_a_wheel_zooms_without_choosing(bumpy: Any) -> None:
+    tab, _ = bumpy
+    tab.choose(5)
+    tab.wait_for_vertex(5)
+    box = tab.page.locator("#view").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    before = tab.picture()
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x + 40, y + 20, steps=4)
+    tab.page.mouse.up()
+    turned = tab.picture()
+    assert (turned != before).any(axis=2).mean() > 0.05
+    tab.page.mouse.wheel(0, -200)
+    larger = tab.picture()
+    assert (larger[..., 3] > 0).sum() > 1.05 * (turned[..., 3] > 0).sum()
+    assert tab.page.input_value("#vertex") == "5"
+    tab.page.press("#view", "0")
+
+
 def test_edges_and_shading(bumpy: Any) -> None:
     tab, _ = bumpy
     before = tab.picture()

@@ -127,27 +127,31 @@ const KEYS = {
 
 /** Let the canvas hear pointers and keys. */
 function listen(canvas) {
+  const down = new Set();
   let pressed = null, waiting = null;
   canvas.addEventListener("pointerdown", (event) => {
-    pressed = [event.clientX, event.clientY];
+    down.add(event.pointerId);
+    pressed = down.size === 1 ? [event.clientX, event.clientY] : null; // two fingers choose nothing
     canvas.focus({ preventScroll: true });
     hover.hidden = true;
   });
   canvas.addEventListener("pointerup", (event) => {
     const still = pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 5;
     pressed = null;
+    down.delete(event.pointerId);
     const index = still && event.button === 0 ? scene.pick(event.clientX, event.clientY) : null;
     if (index === null) return;
     input.value = vertices[index];
     choose(index);
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (pressed) { scene.draw(); return; }
+    if (down.size) { scene.draw(); return; }
     if (event.pointerType === "touch") return;
     clearTimeout(waiting);
     hover.hidden = true;
     waiting = setTimeout(() => point(event), 80);
   });
+  canvas.addEventListener("pointercancel", (event) => { pressed = null; down.delete(event.pointerId); });
   canvas.addEventListener("pointerleave", () => { clearTimeout(waiting); hover.hidden = true; });
   // A page must scroll past the surface: the wheel zooms once it was clicked or reached by keyboard.
   canvas.addEventListener("wheel", () => {
