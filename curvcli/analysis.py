@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from difflib import get_close_matches
+from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -14,7 +13,9 @@ from numpy.typing import NDArray
 
 from . import findings
 from .checks import Check, rules
-from .declare import AT_SCALE, CELL_AREAS, Element, Quantity, passes
+from .checks.listing import known_checks, summarised
+from .columns import Columns
+from .declare import AT_SCALE, CELL_AREAS, passes
 from .errors import Notice, UsageError
 from .groups import Groups
 from .loading.surfaces import Orient, as_surface
@@ -51,38 +52,6 @@ class Conventions:
     scale: str | None = None
     normals: str | None = None
     noise: str | None = None
-
-
-class Columns(Mapping[str, Array]):
-    """Columns of one element by name, read-only; a vector is there by its stem as (n, 3) and by its components.
-
-    Of vertices, the passes chosen; of edges and faces all there are, computed when they are first asked for.
-    """
-
-    def __init__(self, analysis: Analysis, element: Element) -> None:
-        self._analysis = analysis
-        self._quantities: dict[str, tuple[Quantity, int | None]] = {}
-        offered = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
-        for name in offered:
-            quantity = passes.quantity(name)
-            if quantity.on == element:
-                self._quantities[quantity.stem] = (quantity, None)
-                if quantity.vector:
-                    self._quantities.update({column: (quantity, k) for k, column in enumerate(quantity.columns)})
-        self._shown: dict[str, Array] = {}
-
-    def __getitem__(self, name: str) -> Array:
-        quantity, component = self._quantities[name]
-        if quantity.name not in self._shown:
-            self._shown[quantity.name] = self._analysis.column(quantity.name)
-        column = self._shown[quantity.name]
-        return column if component is None else column[:, component]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._quantities)
-
-    def __len__(self) -> int:
-        return len(self._quantities)
 
 
 class Analysis:
@@ -248,23 +217,6 @@ class Analysis:
         write_outputs(self, [str(path)], force=force)
 
 
-def summarised(checks: list[Check], scope: str) -> list[Check]:
-    """The checks of very many groups: those that fail, and one line for the rest."""
-    failed = [check for check in checks if check.status == "fail"]
-    if failed or not checks:
-        return failed
-    passed = sum(check.status == "pass" for check in checks)
-    worst = max((check for check in checks if check.status == "pass"), key=_strain, default=None)
-    if worst is None:
-        return [Check(checks[0].name, scope, "not_applicable", None, None, None, None, checks[0].detail)]
-    detail = f"{passed} of {len(checks)} {scope} pass, the others are not applicable; {worst.scope} is the closest call"
-    return [replace(worst, scope=scope, detail=detail)]
-
-
-def _strain(check: Check) -> float:
-    return check.residual / check.tolerance if check.residual and check.tolerance else 0.0
-
-
 def plain(value: Any) -> Any:
     """A number or a vector for JSON, None where undefined."""
     if np.ndim(value):
@@ -345,15 +297,3 @@ def told(chosen: Iterable[str], settings: Settings, surface: Surface) -> tuple[s
     if "noise" in used:
         noise = repr(precision(surface).deviation if settings.noise is None else settings.noise)
     return scales if scaled else None, settings.normals if "normals" in used else None, noise
-
-
-def known_checks(names: Iterable[str]) -> list[str]:
-    """The names of identities in the order of the report.
-
-    Errors: UsageError for one that is not known, with the nearest.
-    """
-    wanted = set(names)
-    for name in sorted(wanted - rules.keys()):
-        near = get_close_matches(name, rules, 3, 0.4) or list(rules)
-        raise UsageError(f"unknown check {name!r}; nearest: {', '.join(near)}")
-    return [name for name in rules if name in wanted]

@@ -1,0 +1,39 @@
+"""Which checks are meant by their names, and how those of very many groups are told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from difflib import get_close_matches
+
+from ..errors import UsageError
+from .base import Check, rules
+
+
+def summarised(checks: list[Check], scope: str) -> list[Check]:
+    """The checks of very many groups: those that fail, and one line for the rest."""
+    failed = [check for check in checks if check.status == "fail"]
+    if failed or not checks:
+        return failed
+    passed = sum(check.status == "pass" for check in checks)
+    worst = max((check for check in checks if check.status == "pass"), key=_strain, default=None)
+    if worst is None:
+        return [Check(checks[0].name, scope, "not_applicable", None, None, None, None, checks[0].detail)]
+    detail = f"{passed} of {len(checks)} {scope} pass, the others are not applicable; {worst.scope} is the closest call"
+    return [replace(worst, scope=scope, detail=detail)]
+
+
+def _strain(check: Check) -> float:
+    return check.residual / check.tolerance if check.residual and check.tolerance else 0.0
+
+
+def known_checks(names: Iterable[str]) -> list[str]:
+    """The names of identities in the order of the report.
+
+    Errors: UsageError for one that is not known, with the nearest.
+    """
+    wanted = set(names)
+    for name in sorted(wanted - rules.keys()):
+        near = get_close_matches(name, rules, 3, 0.4) or list(rules)
+        raise UsageError(f"unknown check {name!r}; nearest: {', '.join(near)}")
+    return [name for name in rules if name in wanted]
