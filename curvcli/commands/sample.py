@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from ..samples.model import Sample, SampleSpec
 
 
+_NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
+
+
 @click.command("sample", short_help="Write a test surface with known curvatures.")
 @click.argument("name", required=False)
 @click.option(
@@ -47,7 +50,7 @@ def command(
 
     \b
       curvcli sample
-      curvcli sample torus --set major=3 --size 10000 -o torus.ply -o exact.csv
+      curvcli sample torus --set radius=3 --size 10000 -o torus.ply -o exact.csv
     """
     from ..report.samples import describe, listing
     from ..samples import get
@@ -116,8 +119,10 @@ def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool) -> None:
         write_stl_text(stream, made.points, made.faces)
     elif suffix in suffixes(("mesh", "triangles")):
         comments = [f"curvcli sample {made.name}: {made.description}"]
+        # What other programs, and --normals file, call normals.
+        properties = {_NORMALS.get(name, name): column for name, column in made.exact.items()}
         for notice in write_mesh(
-            stream, suffix, made.points, made.faces, vertex_properties=made.exact, comments=comments
+            stream, suffix, made.points, made.faces, vertex_properties=properties, comments=comments
         ):
             say(notice.message)
     else:

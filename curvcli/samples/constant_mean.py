@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .catalogue import sample
-from .curvature import principal
+from .curvature import facing, principal, revolved
 from .facts import orientable
 from .grids import revolve, split
 from .model import Sample, demand, demand_positive
@@ -53,7 +53,10 @@ def _delaunay(size: int, neck: float, bulge: float, periods: int) -> Sample:
     points, faces, row = revolve(radius, height, max(columns, 3))
     ratio = neck * bulge / radius[row] ** 2
     mean = 2 / pace
-    exact = principal((1 + ratio) / pace, (1 - ratio) / pace)
+    # The profile's slopes (r', z') over its pace, at which it is run through.
+    inward = np.sin(t) * np.cos(t) * modulus * bulge / np.sqrt(1 - modulus * np.sin(t) ** 2)
+    along = (ratio + 1) * radius[row]
+    exact = facing(principal((1 + ratio) / pace, (1 - ratio) / pace), revolved(points, along, inward[row]))
     exact |= {"h": np.full(len(row), abs(mean)), "h_signed": np.full(len(row), mean)}
     limit = {"area": area, "K": 0.0, "kappa_g": 0.0, "H_theta": mean * area, "willmore": mean**2 * area}
     return Sample(points, faces, exact, orientable(loops=2), limit)

@@ -27,6 +27,22 @@ def principal(first: ArrayLike, second: ArrayLike) -> Columns:
     }
 
 
+def facing(columns: Columns, normal: ArrayLike) -> Columns:
+    """The columns with the normal (V, 3), of any length, as `normal_x`, `normal_y`, `normal_z`."""
+    vector = np.asarray(normal, np.float64)
+    unit = vector / np.linalg.norm(vector, axis=-1, keepdims=True) + 0.0
+    count = len(next(iter(columns.values())))
+    return columns | {f"normal_{axis}": np.broadcast_to(unit[..., k], (count,)).copy() for k, axis in enumerate("xyz")}
+
+
+def revolved(points: FloatArray, out: ArrayLike, up: ArrayLike) -> FloatArray:
+    """Normals (V, 3) of a surface of revolution about the z axis: their parts away from the axis and along it."""
+    x, y, _ = points.T
+    across = np.hypot(x, y)
+    outward = np.asarray(out, np.float64) / np.where(across > 0, across, 1.0)
+    return np.stack([x * outward, y * outward, np.broadcast_to(np.asarray(up, np.float64), x.shape)], axis=1)
+
+
 def constant(count: int, first: float, second: float) -> Columns:
     """Columns of a surface whose principal curvatures are the same everywhere."""
     return principal(np.full(count, first), np.full(count, second))
@@ -56,7 +72,7 @@ def of_parametrisation(xu: FloatArray, xv: FloatArray, xuu: FloatArray, xuv: Flo
     mixed = -_dot(xuv, normal) / length_u
     b = (mixed - skew * a) / length_v
     d = (-_dot(xvv, normal) - 2 * skew * mixed + skew**2 * a) / length_v**2
-    return of_shape_operator(a, b, d)
+    return facing(of_shape_operator(a, b, d), normal)
 
 
 def of_graph(fx: FloatArray, fy: FloatArray, fxx: FloatArray, fxy: FloatArray, fyy: FloatArray) -> Columns:
@@ -81,9 +97,8 @@ def of_quadric(weights: tuple[float, float, float], points: FloatArray) -> Colum
     e1 /= np.linalg.norm(e1, axis=1)[:, None]
     e2 = np.cross(normal, e1)
     hessian = 2 * np.asarray(weights)
-    return of_shape_operator(
-        _dot(e1 * hessian, e1) / length, _dot(e1 * hessian, e2) / length, _dot(e2 * hessian, e2) / length
-    )
+    entries = (_dot(one * hessian, other) / length for one, other in ((e1, e1), (e1, e2), (e2, e2)))
+    return facing(of_shape_operator(*entries), normal)
 
 
 def inverted(first: ArrayLike, second: ArrayLike, normal: FloatArray, offset: FloatArray) -> Columns:
@@ -92,7 +107,8 @@ def inverted(first: ArrayLike, second: ArrayLike, normal: FloatArray, offset: Fl
     k -> |d|^2 k - 2 n.d for the normal n, whose image n - 2 (n.d) d / |d|^2 points outward if the centre is outside.
     """
     square, shift = _dot(offset, offset), 2 * _dot(normal, offset)
-    return principal(square * np.asarray(first) - shift, square * np.asarray(second) - shift)
+    image = normal - (shift / square)[:, None] * offset
+    return facing(principal(square * np.asarray(first) - shift, square * np.asarray(second) - shift), image)
 
 
 def _dot(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .catalogue import sample
-from .curvature import constant, principal
+from .curvature import constant, facing, principal
 from .facts import orientable
 from .grids import disk as rings_disk
 from .grids import looped, rings_for, shaken, split, table, triangles
@@ -93,7 +93,9 @@ def developable_strip(
     y = width * (np.where(ends, column, column + shift) / (columns - 1) - 0.5)
     points = np.stack([unit * cosine[row], y, unit * sine[row]], axis=1)
     rim = ends | np.isin(row, [0, rows - 1])
-    exact = principal(np.zeros(len(row)), -rate * s[row]) | {"K": np.where(rim, np.nan, 0.0)}
+    turn = rate * s[row] ** 2 / 2
+    normal = np.stack([-np.sin(turn), np.zeros(len(row)), np.cos(turn)], axis=1)
+    exact = facing(principal(np.zeros(len(row)), -rate * s[row]), normal) | {"K": np.where(rim, np.nan, 0.0)}
     limit = {"area": length * width, "K": 0.0, "H_theta": 0.0, "willmore": width * rate**2 * length**3 / 12}
     return Sample(points, triangles(table(rows, columns)), exact, orientable(loops=1), limit)
 
@@ -101,4 +103,4 @@ def developable_strip(
 def _flat(rim: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> Columns:
     """All curvatures zero; the angle defect too, where it is one."""
     defect: FloatArray = np.where(rim, np.nan, 0.0)
-    return constant(len(rim), 0.0, 0.0) | {"K": defect}
+    return facing(constant(len(rim), 0.0, 0.0), [0.0, 0.0, 1.0]) | {"K": defect}

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .catalogue import sample
-from .curvature import constant, of_graph
+from .curvature import constant, facing, of_graph
 from .facts import orientable
 from .grids import disk, rings_for
 from .model import FloatArray, IntArray, Sample, demand, demand_positive
@@ -102,5 +102,5 @@ def _cap(size: int, radius: float, opening: float) -> Sample:
         "H_theta": 2 * turned * radius,
         "willmore": 4 * turned,
     }
-    exact = constant(len(points), 1 / radius, 1 / radius)
+    exact = facing(constant(len(points), 1 / radius, 1 / radius), points)
     return Sample(points * radius, faces, exact, orientable(loops=1), limit)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .catalogue import sample
-from .curvature import of_graph, principal
+from .curvature import facing, of_graph, principal, revolved
 from .facts import orientable
 from .grids import disk, revolve, rings_for, split, table, triangles
 from .model import Columns, FloatArray, Sample, demand, demand_positive
@@ -28,7 +28,8 @@ def catenoid(*, size: int = 1000, neck: float = 1.0, height: float = 2.0) -> Sam
     points, faces, row = revolve(neck * np.cosh(t), neck * t, max(columns, 3))
     total = -4 * math.pi * math.tanh(end)
     limit = _film(swept * neck**2, total, 0)
-    return Sample(points, faces, _balanced(1 / (neck * np.cosh(t[row]) ** 2)), orientable(loops=2), limit)
+    exact = facing(_balanced(1 / (neck * np.cosh(t[row]) ** 2)), revolved(points, 1, -np.sinh(t[row])))
+    return Sample(points, faces, exact, orientable(loops=2), limit)
 
 
 @sample(
@@ -45,7 +46,7 @@ def helicoid(*, size: int = 1000, radius: float = 1.0, pitch: float = 0.5, turns
     t = np.tile(np.linspace(-angle / 2, angle / 2, columns), rows)
     points = np.stack([r * np.cos(t), r * np.sin(t), pitch * t], axis=1)
     limit = _film(swept, -2 * angle * radius / math.hypot(radius, pitch), 1)
-    exact = _balanced(pitch / (pitch**2 + r**2))
+    exact = facing(_balanced(pitch / (pitch**2 + r**2)), np.stack([pitch * np.sin(t), -pitch * np.cos(t), r], axis=1))
     return Sample(points, triangles(table(rows, columns)), exact, orientable(loops=1), limit)
 
 
@@ -62,7 +63,8 @@ def enneper(*, size: int = 1000, reach: float = 1.0) -> Sample:
     points = np.stack([u - u**3 / 3 + u * v**2, v - v**3 / 3 + v * u**2, u**2 - v**2], axis=1)
     square = reach**2
     limit = _film(math.pi * (square + square**2 + square**3 / 3), -4 * math.pi * square / (1 + square), 1)
-    return Sample(points, faces, _balanced(2 / (1 + u**2 + v**2) ** 2), orientable(loops=1), limit)
+    exact = facing(_balanced(2 / (1 + u**2 + v**2) ** 2), np.stack([-2 * u, 2 * v, 1 - u**2 - v**2], axis=1))
+    return Sample(points, faces, exact, orientable(loops=1), limit)
 
 
 @sample(
@@ -76,9 +78,10 @@ def scherk(*, size: int = 1000, reach: float = 1.2) -> Sample:
     rho, phi, faces = disk(rings_for(size))
     x, y = reach * rho * np.cos(phi), reach * rho * np.sin(phi)
     points = np.stack([x, y, np.log(np.cos(y) / np.cos(x))], axis=1)
-    gaussian = of_graph(np.tan(x), -np.tan(y), np.cos(x) ** -2, 0 * x, -(np.cos(y) ** -2))["K_density"]
+    graph = of_graph(np.tan(x), -np.tan(y), np.cos(x) ** -2, 0 * x, -(np.cos(y) ** -2))
     limit = {"H_theta": 0.0, "willmore": 0.0}
-    return Sample(points, faces, _balanced(np.sqrt(-gaussian)), orientable(loops=1), limit)
+    exact = graph | _balanced(np.sqrt(-graph["K_density"]))
+    return Sample(points, faces, exact, orientable(loops=1), limit)
 
 
 def _balanced(kappa: FloatArray) -> Columns:

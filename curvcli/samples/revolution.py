@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .catalogue import sample
-from .curvature import constant, principal
+from .curvature import constant, facing, principal, revolved
 from .facts import orientable
 from .grids import revolve, split, table
 from .model import Sample, demand, demand_positive
@@ -25,7 +25,7 @@ def cylinder(*, size: int = 1000, radius: float = 1.0, height: float = 2.0, aspe
     z = np.linspace(-height / 2, height / 2, rows)
     points, faces, row = revolve(np.full(rows, radius), z, columns)
     defect = np.where(np.isin(row, [0, rows - 1]), np.nan, 0.0)
-    exact = constant(len(points), 1 / radius, 0.0) | {"K": defect}
+    exact = facing(constant(len(points), 1 / radius, 0.0), revolved(points, 1, 0)) | {"K": defect}
     facts = orientable(loops=2, area=2 * columns * radius * math.sin(math.pi / columns) * height)
     area = 2 * math.pi * radius * height
     limit = {"area": area, "K": 0.0, "kappa_g": 0.0, "H_theta": area / radius, "willmore": area / radius**2}
@@ -51,6 +51,7 @@ def closed_cylinder(*, size: int = 1000, radius: float = 1.0, height: float = 2.
     rim = np.isin(row, [inner, inner + upright])
     across = np.where((row > inner) & (row < inner + upright), 1 / radius, 0.0)
     exact = principal(np.where(rim, np.nan, across), np.where(rim, np.nan, 0.0))
+    exact = facing(exact, revolved(points, np.where(rim, np.nan, across), np.where(across > 0, 0.0, points[:, 2])))
     exact["K"] = np.where(rim, 2 * math.pi / columns, 0.0)
     chord, base = 2 * radius * math.sin(math.pi / columns), columns / 2 * radius**2 * math.sin(2 * math.pi / columns)
     facts = orientable(
@@ -82,7 +83,7 @@ def cone(*, size: int = 1000, radius: float = 1.0, height: float = 1.0) -> Sampl
     points, faces, row = revolve(radius * step[::-1], height * step, columns)
     apex = row == rows
     around = height / slant / (radius * np.where(apex, np.nan, 1 - step[row]))
-    exact = principal(around, 0 * around)
+    exact = facing(principal(around, 0 * around), revolved(points, np.where(apex, np.nan, height), radius))
     tip = 2 * math.pi - 2 * columns * math.asin(radius * math.sin(math.pi / columns) / slant)
     exact["K"] = np.select([apex, row == 0], [tip, np.nan], 0.0)
     base = math.hypot(height, radius * math.cos(math.pi / columns))
@@ -113,7 +114,8 @@ def pseudosphere(*, size: int = 1000, radius: float = 1.0, start: float = 0.4, e
     t = np.arccosh(math.cosh(start) * np.exp(length * np.arange(rows) / (rows - 1)))
     points, faces, row = revolve(radius / np.cosh(t), radius * (t - np.tanh(t)), columns)
     around = np.sinh(t)[row] / radius
-    exact = principal(around, -1 / (radius**2 * around))
+    slope = revolved(points, np.tanh(t[row]), 1 / np.cosh(t[row]))
+    exact = facing(principal(around, -1 / (radius**2 * around)), slope)
     exact["K_density"] = np.full(len(row), -1 / radius**2)
     turned = 2 * math.pi * (1 / math.cosh(start) - 1 / math.cosh(end))
     limit = {"area": turned * radius**2, "K": -turned, "kappa_g": turned}
@@ -146,4 +148,5 @@ def schwarz_lantern(*, size: int = 1000, radius: float = 1.0, height: float = 2.
     area = 2 * bands * sides * radius * math.sin(math.pi / sides) * math.hypot(height / bands, sagitta)
     smooth = 2 * math.pi * radius * height
     limit = {"area": smooth, "K": 0.0, "kappa_g": 0.0, "H_theta": smooth / radius, "willmore": smooth / radius**2}
-    return Sample(points, faces, constant(len(points), 1 / radius, 0.0), orientable(loops=2, area=area), limit)
+    exact = facing(constant(len(points), 1 / radius, 0.0), revolved(points, 1, 0))
+    return Sample(points, faces, exact, orientable(loops=2, area=area), limit)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .catalogue import sample
-from .curvature import constant, of_quadric
+from .curvature import constant, facing, of_quadric
 from .facts import orientable
 from .grids import revolve, split
 from .model import FloatArray, IntArray, Sample, demand, demand_positive
@@ -136,7 +136,7 @@ def _sphere(directions: FloatArray, faces: IntArray, radius: float) -> Sample:
         "H_theta": 8 * math.pi * radius,
         "willmore": 16 * math.pi,
     }
-    exact = constant(len(directions), 1 / radius, 1 / radius)
+    exact = facing(constant(len(directions), 1 / radius, 1 / radius), directions)
     return Sample(directions * radius, faces, exact, orientable(convex=True), limit)
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from .catalogue import sample
-from .curvature import inverted, principal
+from .curvature import facing, inverted, principal
 from .facts import orientable
 from .flat_torus import periodic_delaunay
 from .grids import closed_grid, shaken, split
@@ -104,7 +104,8 @@ def trefoil_tube(*, size: int = 2000, radius: float = 1.0, tube: float = 0.4) ->
     v = 2 * np.pi * around / columns
     points = radius * centre + tube * (np.cos(v)[:, None] * normal + np.sin(v)[:, None] * binormal)
     inner = curvature / radius * np.cos(v)
-    exact = principal(np.full(len(v), 1 / tube), -inner / (1 - tube * inner))
+    outward = np.cos(v)[:, None] * normal + np.sin(v)[:, None] * binormal
+    exact = facing(principal(np.full(len(v), 1 / tube), -inner / (1 - tube * inner)), outward)
     limit = {
         "area": 2 * math.pi * tube * length,
         "volume": math.pi * tube**2 * length,
@@ -155,5 +156,6 @@ def _torus(u: FloatArray, v: FloatArray, faces: IntArray, radius: float, tube: f
         "H_theta": 4 * math.pi**2 * radius,
         "willmore": 4 * math.pi**2 * ratio**2 / math.sqrt(ratio**2 - 1),
     }
-    exact = principal(np.full(len(u), 1 / tube), np.cos(v) / distance)
+    outward = np.stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)], axis=1)
+    exact = facing(principal(np.full(len(u), 1 / tube), np.cos(v) / distance), outward)
     return Sample(points, faces, exact, orientable(genus=1, convex=False), limit)
