@@ -169,6 +169,6 @@ def _solved(normal: VectorColumn, square: Floats, image: Floats, step: float) ->
     determinant, trace = uu * vv - uv * uv, uu + vv
     with np.errstate(divide="ignore", invalid="ignore"):
         along_u, along_v = (vv * a - uv * b) / determinant, (uu * b - uv * a) / determinant
+        solution = along_u * u + along_v * v
     usable = determinant > _IN_LINE * trace * trace
-    turned = normal + step * np.where(usable, along_u * u + along_v * v, 0.0)
-    return _unit(turned)
+    return _unit(normal + step * np.where(usable, solution, 0.0))
