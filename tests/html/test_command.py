@@ -57,13 +57,16 @@ def test_a_missing_template_engine(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("content", [b"", b"<html></html>"])
 def test_a_trimesh_with_another_viewer(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, content: bytes) -> None:
     import zipfile
+    from importlib.util import spec_from_file_location
 
+    (tmp_path / "trimesh.py").touch()
     place = tmp_path / engine._PLACE
     place.parent.mkdir(parents=True)
     if content:
         with zipfile.ZipFile(place, "w") as archive:
             archive.writestr(engine._MEMBER, content)
-    monkeypatch.setattr(engine, "files", lambda name: tmp_path)
+    spec = spec_from_file_location("trimesh", tmp_path / "trimesh.py")
+    monkeypatch.setattr(engine, "find_spec", lambda name: spec)
     with pytest.raises(MissingExtraError, match="trimesh"):
         engine.engine()
 

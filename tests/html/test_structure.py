@@ -190,3 +190,13 @@ def test_the_viewer_is_three_js_with_its_licence() -> None:
     assert "Three.js Authors" in code
     assert "SPDX-License-Identifier: MIT" in code
     assert "GLTFLoader" not in code
+
+
+def test_of_very_many_pieces_the_first_are_listed_and_all_are_counted() -> None:
+    corners = np.random.default_rng(0).uniform(0, 1, (450, 3)) + np.repeat(np.arange(150.0), 3)[:, None]
+    _, page = parsed((corners, np.arange(450).reshape(-1, 3)))
+    for name in ("components", "loops"):
+        section = page.root.one("section", id=name)
+        assert len(section.one("tbody").all("tr")) == 100
+        assert re.match(rf"150 {name}, the first 100 are shown; --table {name}=PATH", section.one("caption").text)
+    assert len(page.root.one("table", id="checks-table").one("tbody").all("tr")) <= 100

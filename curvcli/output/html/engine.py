@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import io
 import zipfile
-from importlib.resources import files
+from importlib.util import find_spec
+from pathlib import Path
 
 from ...errors import MissingExtraError
 
@@ -18,8 +18,10 @@ def engine() -> str:
 
     Errors: MissingExtraError for a trimesh that has another viewer.
     """
+    spec = find_spec("trimesh")  # without importing it
+    folder = Path(spec.origin).parent if spec is not None and spec.origin is not None else Path()
     try:
-        with zipfile.ZipFile(io.BytesIO(files("trimesh").joinpath(_PLACE).read_bytes())) as archive:
+        with zipfile.ZipFile(folder / _PLACE) as archive:
             page = archive.read(_MEMBER).decode("utf-8")
         code = page[page.index(_START) : page.index(_END)]
     except (OSError, KeyError, ValueError, zipfile.BadZipFile):

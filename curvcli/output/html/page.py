@@ -73,7 +73,9 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
     scripts = [engine(), f'(async () => {{\n"use strict";\n{code}}})();\n']
     style = source("style.css")
     report = model(analysis)
-    facts = msgspec.to_builtins(report)
+    pieces = {name: getattr(report, name) for name in ("components", "loops", "regions")}
+    first = {name: rows[:SHOWN_ROWS] for name, rows in pieces.items()}
+    facts = msgspec.to_builtins(msgspec.structs.replace(report, **first))
     text = templates.get_template("page.html").render(
         report=facts,
         title=report.input.path or "arrays in memory",
@@ -86,7 +88,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         more_checks=len(report.checks) - len(listed(report.checks)),
         results=RESULTS,
         rules=rules,
-        most_rows=SHOWN_ROWS,
+        counts={name: len(rows) for name, rows in pieces.items()},
         totals=_totals(),
         columns=shown,
         units={column.name: column.unit for column in shown},
