@@ -137,7 +137,7 @@ drawing = together(
     click.option(
         "--color-by",
         metavar="COLUMN[,COLUMN]",
-        help="Columns of pictures, a panel each, and of histograms; the first one colours a mesh.",
+        help="Columns of pictures, a panel each, and of histograms; the first one colours a mesh, and a page at first.",
     ),
     click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis."),
     click.option(
