@@ -22,9 +22,10 @@ from .tensor import WHERE, frame
 _PAIRS = 16384
 # How much less the normal of a vertex with half a star counts.
 _ONE_SIDED = 2.0**-10
-# What neighbours err alike a full step turns round, and a second one back again, along with the step's own error of
-# third order; over one ring, where no error of a single normal is averaged away, two damped steps leave less.
-_FULL, _DAMPED = (1.0, 1.0), (0.7, 0.7)
+# A full step averages the errors of single normals away. What neighbours err alike it turns round, and the next one
+# back again along with the step's own error of third order: their number is even. Over one ring there is little to
+# average, and two damped steps leave less.
+_FULL, _DAMPED = (1.0, 1.0, 1.0, 1.0), (0.7, 0.7)
 # Chords that lie so nearly in one direction fix no normal.
 _IN_LINE = 1e-6
 
