@@ -38,10 +38,11 @@ class Census:
 
 def census(surface: Surface, groups: Groups) -> Census:
     """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
-    cache: dict[int, Census] = surface.__dict__.setdefault("_census", {})
+    cache: dict[int, tuple[Groups, Census]] = surface.__dict__.setdefault("_census", {})
     if id(groups) not in cache:
-        cache[id(groups)] = _count(surface, groups)
-    return cache[id(groups)]
+        # The groups are kept too: another object may get the number of one that is gone.
+        cache[id(groups)] = groups, _count(surface, groups)
+    return cache[id(groups)][1]
 
 
 def _count(surface: Surface, groups: Groups) -> Census:

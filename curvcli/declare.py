@@ -10,16 +10,13 @@ import inspect
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .errors import UsageError
 from .settings import PARAMETERS
-
-if TYPE_CHECKING:
-    pass
 
 Column = NDArray[np.float64]
 VectorColumn = NDArray[np.float64]  # (3, n), one contiguous row per coordinate
