@@ -38,15 +38,36 @@ A requirement that fails says how many places there are and names the first. Tho
 |---|---|---|
 """
 
+_ELSEWHERE = r"""
+## Of curves and of maps
+
+`curvcli curves` tests on every curve, with tolerances of the same kind, n its vertices and ψ its turning angles:
+
+| identity | statement | applies to |
+|---|---|---|
+| `fenchel` | Σψ ≥ 2π | closed curves |
+| `tangent_change` | the curvature vectors add up to T(q) − T(p), 0 if closed | all with an edge |
+| `turning_number` | the signed total curvature is a multiple of 2π | plane closed curves |
+| `holonomy` | the holonomy of the parallel frame is 2π · writhe up to whole turns | closed curves, none turning back |
+
+`curvcli compare A B --map` tests of the map f from A to B:
+
+| identity | statement |
+|---|---|
+| `dirichlet_energy` | ½ Σ \|∇f\|² area = ¼ Σ cot θ \|opposite edge\|²: both formulas of its energy agree |
+| `nonconformality` | Σ ½(σ₁ − σ₂)² area = E(f) − area f(M) ≥ 0 |
+"""
+
 
 def page() -> str:
     """The documentation page of all checks, in Markdown."""
     load_passes()  # plug-ins may bring identities of their own
     parts = [_INTRODUCTION, "## Identities\n", *(_identity(rule) for rule in rules.values())]
     rows = [
-        f"| `{one.usage}`{' *' if name in DEFAULT else ''} | {_cell(one.statement)} |" for name, one in kinds.items()
+        f"| `{one.usage}`{' *' if name in DEFAULT else ''} | {_cell(one.statement)} | {_cell(one.remedy)} |"
+        for name, one in kinds.items()
     ]
-    return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows)]) + "\n"
+    return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows), _ELSEWHERE])
 
 
 def _identity(rule: CheckRule) -> str:

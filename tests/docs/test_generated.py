@@ -10,9 +10,13 @@ from click import Context
 from curvcli.checks import rules
 from curvcli.commands import main
 from curvcli.commands.main import COMMANDS, cli
+from curvcli.curves.collect import curves_of_surface
+from curvcli.curves.measure import CurveMeasures
+from curvcli.maps import SurfaceMap
 from curvcli.pages import PAGES, PARTS, current
 from curvcli.report.quantities import public
 from curvcli.requirements import kinds
+from tests import meshes
 from tests.docs.pages import NAMES, ROOT, text
 
 
@@ -43,6 +47,15 @@ def test_every_check_says_what_it_is() -> None:
     for kind in kinds.values():
         assert kind.statement, kind.name
         assert kind.remedy, kind.name
+
+
+def test_the_checks_of_curves_and_maps_have_a_line() -> None:
+    """All that a curve or a map is tested for is named."""
+    surface = meshes.cap().surface()
+    names = {identity.name for identity in CurveMeasures(curves_of_surface(surface)).identities}
+    names |= {check.name for check in SurfaceMap(surface, surface.points).checks}
+    assert len(names) == 6
+    assert {name for name in names if f"| `{name}` | " not in text("docs/checks.md")} == set()
 
 
 def test_every_option_of_every_command_is_on_the_page() -> None:
