@@ -127,9 +127,12 @@ def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Analysis, box:
             axes.hlines(share, edge, edge + 1.0, color=sheet.ink, linewidth=0.1 * font)
     axes.set_xlim(-1.0, bins + 1.75)
     places, labels, _ = ticks(scale.low, scale.high, max(2, int(box[2] / (4.5 * font))))
+    if one.quantity.kind == "count":
+        places = [place for place in places if abs(place - round(place)) < 1e-9]
+        labels = [str(round(place)) for place in places]
     half = high / 2 - low / 2
     axes.set_xticks([bins * (place / 2 - low / 2) / half for place in places] if half > 0 else [0.5], labels)
-    _finish(sheet, axes, font)
+    _finish(sheet, axes, box[3], font)
 
 
 def _labels(sheet: Sheet, one: Colored, areas: Shares, analysis: Analysis, box: Box, font: float) -> None:
@@ -143,15 +146,15 @@ def _labels(sheet: Sheet, one: Colored, areas: Shares, analysis: Analysis, box: 
         axes.hlines(float(areas[mine].sum()) / weight, place - 0.4, place + 0.4, color=sheet.ink, linewidth=0.1 * font)
     axes.set_xlim(-0.8, max(4, len(one.scale.categories)) - 0.2)
     axes.set_xticks([])
-    _finish(sheet, axes, font)
+    _finish(sheet, axes, box[3], font)
 
 
-def _finish(sheet: Sheet, axes: Any, font: float) -> None:
+def _finish(sheet: Sheet, axes: Any, tall: float, font: float) -> None:
     """Shares in per cent, few ticks, quiet lines."""
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     axes.set_facecolor("none")
-    axes.yaxis.set_major_locator(MaxNLocator(4))
+    axes.yaxis.set_major_locator(MaxNLocator(min(4, max(1, int(tall / (2.5 * font))))))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda share, _: f"{100 * share:g} %"))
     axes.set_ylim(bottom=0)
     axes.tick_params(

@@ -77,7 +77,8 @@ def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> st
     cut = [f"{count:,} {where}" for count, where in parts if count]
     if scale.low == scale.high and not cut:
         return f"{number(scale.low)}{behind} wherever defined"
-    ends = f"{number(scale.low)} to {number(scale.high)}{behind}"
+    digits = next((d for d in range(4, 17) if number(scale.low, d) != number(scale.high, d)), 17)
+    ends = f"{number(scale.low, digits)} to {number(scale.high, digits)}{behind}"
     return f"{ends} ({range_words(value_range, scale.signed)}), cuts {' and '.join(cut) or 'nothing'}"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import UsageError
 from .look import background_rgb
 
 Color = tuple[float, float, float]
@@ -18,6 +20,7 @@ Box = tuple[float, float, float, float]  # left, top, width, height in pixels, f
 
 _FONT = "DejaVu Sans"
 _SMALLEST_FONT, _LARGEST_FONT = 8.0, 26.0
+_SMALLEST_PANEL = 180
 LINE = 1.4  # line height over font size
 
 
@@ -171,7 +174,10 @@ class Sheet:
 
 
 def grid(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) -> tuple[int, int, tuple[int, int]]:
-    """Columns and rows for so many panels, and the size of the sheet in pixels."""
+    """Columns and rows for so many panels, and the size of the sheet in pixels.
+
+    Errors: UsageError where the panels would be too small to be read.
+    """
     if size is None:
         columns = next(n for n in range(1, count + 1) if n * n * 4 >= count * 3 or n == count)
         columns = min(columns, 4)
@@ -179,5 +185,10 @@ def grid(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) -> tu
         return columns, rows, (min(columns * panel[0], 8192), min(rows * panel[1], 8192))
     shape = panel[0] / panel[1]
     options = [(n, -(-count // n)) for n in range(1, count + 1)]
-    columns, rows = max(options, key=lambda one: min(size[0] / one[0] / shape, size[1] / one[1]))
+    readable = [one for one in options if min(size[0] / one[0], size[1] / one[1]) >= _SMALLEST_PANEL]
+    if not readable:
+        across = math.ceil(math.sqrt(count))
+        enough = f"{across * _SMALLEST_PANEL}x{-(-count // across) * _SMALLEST_PANEL}"
+        raise UsageError(f"--size {size[0]}x{size[1]}: too small for {count} panels; {enough} is enough")
+    columns, rows = max(readable, key=lambda one: min(size[0] / one[0] / shape, size[1] / one[1]))
     return columns, rows, size
