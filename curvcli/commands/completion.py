@@ -40,8 +40,10 @@ def remove(name: str | None) -> int:
     """Take away the script and the lines that load it."""
     from . import shells
 
-    for path, changed in shells.remove(shells.shell(name)):
-        click.echo(f"{'removed from' if changed else 'nothing in'}: {path}")
+    one = shells.shell(name)
+    for path, changed in shells.remove(one):
+        did = "nothing to remove" if not changed else "removed" if path == one.script else "block removed"
+        click.echo(f"{did}: {path}")
     return 0
 
 

@@ -46,7 +46,7 @@ def shell(name: str | None) -> Shell:
         config = os.environ.get("XDG_CONFIG_HOME") or os.path.join(home, ".config")
         return Shell(found, os.path.join(config, "fish", "completions", "curvcli.fish"))
     script = os.path.join(data, "curvcli", f"completion.{found}")
-    load = f"[ -r {_quoted(script)} ] && . {_quoted(script)}"
+    load = f"if [ -r {_quoted(script)} ]; then . {_quoted(script)}; fi"
     if found == "bash":
         return Shell(found, script, os.path.join(home, ".bashrc"), (load,))
     folder = os.environ.get("ZDOTDIR") or home
