@@ -16,9 +16,14 @@ if TYPE_CHECKING:
 
 _TABLES = ("vertices", "faces")
 # Options that make sense only without --map, and only with it.
-_DIFFERENCES = ("rtol", "atol", "only", "ignore", "common", "passes", "area", "mean", "orient", "unit", "regions")
+_DIFFERENCES = (
+    *("rtol", "atol", "only", "ignore", "common", "passes", "area", "mean", "orient", "unit", "regions"),
+    *("rings", "radius", "normals", "noise", "exact"),
+)
 _MAP = ("tables",)
-_CONVENTIONS = ("passes", "area", "mean", "orient", "weld", "unit", "regions")
+_CONVENTIONS = (
+    *("passes", "area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise", "rtol"),
+)
 
 
 @click.command("compare", short_help="What differs between two meshes or reports; --map: one as a map of the other.")
@@ -39,6 +44,9 @@ _CONVENTIONS = ("passes", "area", "mean", "orient", "weld", "unit", "regions")
 )
 @click.option("--ignore", metavar="KEY", multiple=True, help="Leave this out, such as 'warnings.*'; repeatable.")
 @click.option("--common", is_flag=True, help="Compare what both have; else what only one has is a difference.")
+@click.option(
+    "--exact", is_flag=True, help="The table holds exact values: tell the norms of the errors. Known of `sample`'s."
+)
 @click.option("--map", "as_map", is_flag=True, help="A → B as a map on the same faces: its energy and its distortion.")
 @click.option(
     "-o",
@@ -65,6 +73,7 @@ _CONVENTIONS = ("passes", "area", "mean", "orient", "weld", "unit", "regions")
 )
 @options.passes
 @options.regions
+@options.estimating
 @options.reading
 @options.force
 @options.schema
@@ -80,6 +89,11 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     A value has moved when it did by more than atol + rtol · its size, and more than rounding explains;
     values that can cancel are measured by their terms.
 
+    A mesh against a table of exact values (of `curvcli sample NAME -o MESH.ply -o EXACT.csv`, or any with
+    --exact): error norms of every column that has one, weighted by area; K_* are set against K_density,
+    h_* against h_signed, kappa_1_* and kappa_2_* against kappa_1 and kappa_2. With --rtol, exits with 1
+    if a relative L2 error is above it.
+
     With --map: the map that sends each vertex of A to the vertex of the same index of B, linear on faces.
     Tells its Dirichlet energy, the area of its image, its non-conformality (0 for conformal maps), the
     singular values σ₁ ≥ σ₂ ≥ 0 on every face, and how far it is from harmonic. A and B must have the
@@ -89,6 +103,7 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
       curvcli compare bunny.obj bunny.json
       curvcli compare old.ply new.ply --rtol 1e-6 --ignore vertices
       curvcli compare bunny.obj bunny.json --only totals --only checks
+      curvcli compare torus.ply exact.csv --rings 3
       curvcli compare mesh.obj flattened.obj --map
       curvcli compare mesh.obj flattened.obj --map --get totals.nonconformality
       curvcli compare mesh.obj flattened.obj --map --table faces=distortion.csv

@@ -13,8 +13,11 @@ import click
 from ..differences import Difference, Tolerance, compare_reports, selector
 from ..errors import UsageError
 from . import options
+from .against_exact import accuracy, is_exact
 
 if TYPE_CHECKING:
+    from ..analysis import Analysis
+    from ..report.accuracy import Accuracy
     from ..report.differences import Comparison, Side
 
 
@@ -37,6 +40,7 @@ def compare(
     only: tuple[str, ...],
     ignore: tuple[str, ...],
     common: bool,
+    exact: bool,
     outputs: tuple[str, ...],
     as_json: bool,
     get: str | None,
@@ -56,7 +60,8 @@ def compare(
     from ..output.atomic import Outputs
     from ..output.formats import format_of
     from ..output.tables import parse_precision, write_table
-    from ..report.differences import show, table
+    from ..report import accuracy as errors
+    from ..report import differences
     from ..report.lookup import look_up
     from ..report.model import encode
 
@@ -67,19 +72,27 @@ def compare(
     conventions["weld"] = options.welding(conventions["weld"])
     limits = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
     with Outputs(list(outputs), force) as files:
-        found = _compare(_read(a, b, given, conventions, limits, quiet), Tolerance(rtol, atol), only, ignore, common)
+        found: Comparison | Accuracy
+        report: Any = errors
+        mesh, known = _exact(a, b, limits, exact)
+        if known is not None:
+            limit = rtol if "rtol" in given else None
+            found = accuracy(mesh, known, conventions, limits, selector(only, ignore), limit, quiet)
+        else:
+            sides = _read(a, b, given, conventions, limits, quiet)
+            found, report = _compare(sides, Tolerance(rtol, atol), only, ignore, common), differences
         for path, one in zip(outputs, formats, strict=True):
             with files.open(path) as stream:
                 if one.kind == "report":
                     stream.write(encode(msgspec.to_builtins(found)))
                 else:
-                    write_table(stream, table(found), one.suffix, precision=precision)
+                    write_table(stream, report.table(found), one.suffix, precision=precision)
         if as_json:
             sys.stdout.buffer.write(encode(msgspec.to_builtins(found)))
         elif get is not None:
             click.echo(look_up(msgspec.to_builtins(found), get))
         elif not quiet and "-" not in outputs:
-            show(found, verbose)
+            report.show(found, verbose)
     return 0 if found.equal else 1
 
 
@@ -113,6 +126,21 @@ def _compare(
     return model(a.side, b.side, tolerance, compared, found, columns, notes)
 
 
+def _exact(a: str, b: str, limits: dict[str, Any], exact: bool) -> tuple[str, Read | None]:
+    """The mesh and the table of exact values that it is set against, if that is what the two are.
+
+    exact: whatever the table looks like. Errors: UsageError where there is none.
+    """
+    for mesh, table in ((a, b), (b, a)):
+        if (_kind(mesh), _kind(table)) == ("mesh", "table"):
+            stored = _stored(table, limits["max_bytes"])
+            if exact or is_exact(stored.cells or {}):
+                return mesh, stored
+    if exact:
+        raise UsageError("--exact wants a mesh and a table (.csv .tsv .parquet) of exact values")
+    return a, None
+
+
 def _read(
     a: str, b: str, given: set[str], conventions: dict[str, Any], limits: dict[str, Any], quiet: bool
 ) -> tuple[Read, Read]:
@@ -123,7 +151,7 @@ def _read(
     stored = {path: _stored(path, limits["max_bytes"]) for path in (a, b) if _kind(path) != "mesh"}
     for side in stored.values():
         conventions |= {name: value for name, value in _made_with(side).items() if name not in given}
-    first, second = (stored.get(path) or _analysed(path, conventions, limits, quiet) for path in (a, b))
+    first, second = (stored.get(path) or analysed(path, conventions, limits, quiet)[0] for path in (a, b))
     return first, second
 
 
@@ -176,7 +204,8 @@ def _made_with(side: Read) -> dict[str, Any]:
     return {**made, "passes": tuple(dict.fromkeys(names))}
 
 
-def _analysed(path: str, conventions: Mapping[str, Any], limits: dict[str, Any], quiet: bool) -> Read:
+def analysed(path: str, conventions: Mapping[str, Any], limits: dict[str, Any], quiet: bool) -> tuple[Read, Analysis]:
+    """A mesh with its report and its columns as a stored table would have them."""
     from ..analysis import analyze
     from ..loading.surfaces import load
     from ..report.differences import Side
@@ -194,7 +223,7 @@ def _analysed(path: str, conventions: Mapping[str, Any], limits: dict[str, Any],
         report = analysis.report()
     sha256 = surface.file.sha256 if surface.file is not None else None
     cells = {name: _plain(column) for name, column in vertex_table(analysis).items() if name != "vertex"}
-    return Read(Side(path, "mesh", sha256), report, cells)
+    return Read(Side(path, "mesh", sha256), report, cells), analysis
 
 
 def _plain(column: Any) -> Any:

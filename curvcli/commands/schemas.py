@@ -16,6 +16,7 @@ import msgspec
 
 from .._version import __version__
 from ..batch.model import Row
+from ..report.accuracy import Accuracy
 from ..report.check import CheckReport
 from ..report.curves import CurveReport
 from ..report.differences import Comparison
@@ -54,7 +55,7 @@ class Described:
 SCHEMAS: dict[str, Described] = {
     "analyze": Described("curvcli analyze --json, -o FILE.json", (Report,), report_schema),
     "check": Described("curvcli check --format json", (CheckReport,)),
-    "compare": Described("curvcli compare --json, also with --map", (Comparison, MapReport)),
+    "compare": Described("curvcli compare --json, also with --map or exact values", (Comparison, Accuracy, MapReport)),
     "curves": Described("curvcli curves --json", (CurveReport,)),
     "passes": Described("curvcli passes --json, a list; with NAME one of it", (list[Facts], Facts)),
     "batch": Described("a line of manifest.jsonl, by curvcli batch", (Row,)),

@@ -1,0 +1,138 @@
+"""What is told of columns set against exact values: as JSON, as a table, and as a summary for the terminal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import msgspec
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from .._version import __version__
+from ..accuracy import ErrorNorms
+from .differences import Side
+
+_NUMBERS = ("relative_l2", "linf", "rms", "bias", "relative_bias")
+
+
+class ColumnErrors(msgspec.Struct):
+    """One computed column against the exact one: norms of the error, weighted by the areas of the vertices."""
+
+    exact: str
+    relative_l2: float | None
+    linf: float | None
+    vertex: int | None
+    rms: float | None
+    bias: float | None
+    relative_bias: float | None
+    nulls: int
+    compared: int
+
+
+class Accuracy(msgspec.Struct):
+    """The report of `curvcli compare` of a mesh with a table of exact values; errors by column.
+
+    equal: whether every relative L2 error is within rtol; true where none was asked for.
+    """
+
+    schema_version: int
+    curvcli: str
+    mesh: Side
+    exact: Side
+    scale: str | None
+    rtol: float | None
+    equal: bool
+    errors: dict[str, ColumnErrors]
+    unmatched: list[str]
+    notes: list[str]
+
+
+def model(
+    mesh: Side,
+    exact: Side,
+    scale: str | None,
+    rtol: float | None,
+    errors: Sequence[ErrorNorms],
+    unmatched: list[str],
+    notes: list[str],
+) -> Accuracy:
+    """The report; rtol: what relative L2 errors may be, None for whatever they are."""
+
+    def known(value: float | None) -> float | None:
+        return None if value is None or math.isnan(value) else value
+
+    found = {
+        one.column: ColumnErrors(
+            one.exact,
+            known(one.relative_l2),
+            known(one.linf),
+            one.vertex if one.vertex >= 0 else None,
+            known(one.rms),
+            known(one.bias),
+            known(one.relative_bias),
+            one.nulls,
+            one.compared,
+        )
+        for one in errors
+    }
+    equal = rtol is None or all(one.relative_l2 is None or one.relative_l2 <= rtol for one in found.values())
+    return Accuracy(1, __version__, mesh, exact, scale, rtol, equal, found, unmatched, notes)
+
+
+def table(found: Accuracy) -> dict[str, Any]:
+    """One row per column as columns of a table file."""
+    from ..loading.model import Labels
+
+    columns: dict[str, Any] = {}
+    rows = list(found.errors.items())
+    for header, names in (("column", [name for name, _ in rows]), ("exact", [row.exact for _, row in rows])):
+        known = tuple(dict.fromkeys(names))
+        columns[header] = Labels(np.array([known.index(name) for name in names], np.int32), known)
+    for key in _NUMBERS:
+        values = [getattr(row, key) for _, row in rows]
+        columns[key] = np.array([math.nan if value is None else value for value in values], np.float64)
+    for key in ("nulls", "compared"):
+        columns[key] = np.array([getattr(row, key) for _, row in rows], np.int32)
+    return columns
+
+
+def show(found: Accuracy, verbose: int = 0) -> None:
+    """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = max(console.width, 120)
+    console.print(f"mesh [bold]{escape(found.mesh.path)}[/bold], exact values [bold]{escape(found.exact.path)}[/bold]")
+    for note in found.notes:
+        console.print(f"[yellow]note[/yellow] {escape(note)}")
+    shown = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for header in ("column", "against"):
+        shown.add_column(header, no_wrap=True)
+    for header in ("relative L2", "Linf", "at vertex", "RMS", "bias", "relative", "null", "compared"):
+        shown.add_column(header, justify="right", no_wrap=True)
+    for name, row in found.errors.items():
+        late = found.rtol is not None and row.relative_l2 is not None and row.relative_l2 > found.rtol
+        relative = _number(row.relative_l2)
+        shown.add_row(
+            name,
+            row.exact,
+            f"[bold red]{relative}[/bold red]" if late else relative,
+            _number(row.linf),
+            "" if row.vertex is None else str(row.vertex),
+            *(_number(value) for value in (row.rms, row.bias, row.relative_bias)),
+            f"{row.nulls:,}" if row.nulls else "",
+            f"{row.compared:,}",
+        )
+    console.print(shown)
+    if found.unmatched:
+        console.print(f"[dim]without an exact value: {', '.join(found.unmatched)}[/dim]")
+    if not found.equal:
+        console.print(f"[bold red]FAIL[/bold red]: a relative L2 error is above {found.rtol:g}")
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.3g}"
