@@ -119,7 +119,7 @@ def test_a_home_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / ".local").write_text("a file where a folder should be")
     code, out, err = install(tmp_path, "install", "bash")
     assert (code, out) == (4, "")
-    assert "completion.bash: cannot be written" in err
+    assert "completion.bash: cannot be read: Not a directory" in err
     assert not (tmp_path / ".bashrc").exists()
 
 
