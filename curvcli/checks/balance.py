@@ -18,7 +18,7 @@ def vector_sum(segments: Segments, vectors: Vector) -> Floats:
     return np.stack([segments.sum(component) for component in vectors], axis=1)
 
 
-def boundary_segments(surface: Surface, groups: Groups, half_edges: Index) -> Segments:
+def boundary_segments(groups: Groups, half_edges: Index) -> Segments:
     """The groups of the faces of some half-edges."""
     label = None if groups.faces.label is None else groups.face[half_edges // 3]
     return Segments(label, groups.count, len(half_edges))
@@ -31,7 +31,7 @@ def _boundary(surface: Surface, groups: Groups) -> tuple[Segments, VectorColumn,
     ends = surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]
     base = surface.base[:, None]
     midpoint = 0.5 * (surface.xyz[:, ends[0]] - base) + 0.5 * (surface.xyz[:, ends[1]] - base)
-    return boundary_segments(surface, groups, half_edges), midpoint, conormals(surface, half_edges)
+    return boundary_segments(groups, half_edges), midpoint, conormals(surface, half_edges)
 
 
 def offsets(surface: Surface) -> VectorColumn:

@@ -20,10 +20,6 @@ class Columns:
     scalars: dict[str, NDArray[Any]] = field(default_factory=dict)
     lists: dict[str, tuple[NDArray[np.int64], NDArray[Any]]] = field(default_factory=dict)
 
-    @property
-    def list_names(self) -> list[str]:
-        return list(self.lists)
-
 
 def read_binary_rows(data: bytes, offset: int, element: Element) -> tuple[Columns, int]:
     """The columns of an element that begins at `offset`, and where the next element begins.
