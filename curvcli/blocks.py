@@ -130,7 +130,7 @@ def face_blocks(count: int, size: int = FACES_PER_BLOCK) -> Iterator[slice]:
     return (slice(start, min(start + size, count)) for start in range(0, count, size))
 
 
-def signed_volumes(surface: Surface, label: Index | None = None) -> Floats:
+def signed_volumes(surface: Surface, label: Index) -> Floats:
     """(F,) volume of the tetrahedron that each face, as the file winds it, spans with the base point of its group.
 
     label: group of each face; the base is the first corner of the group's first face. The sum over a closed group does
@@ -139,13 +139,13 @@ def signed_volumes(surface: Surface, label: Index | None = None) -> Floats:
     xyz, faces = surface.xyz, surface.faces
     volume = np.empty(surface.n_faces)
     base = surface.base[:, None]
-    if label is not None and len(label) and label.max() > 0:
+    if label.max() > 0:
         first = np.full(int(label.max()) + 1, surface.n_faces, np.int64)
         np.minimum.at(first, label, np.arange(surface.n_faces))
         base = xyz[:, faces[first, 0]]
     for block in face_blocks(surface.n_faces):
         face = faces[block]
-        at = base if base.shape[1] == 1 or label is None else base[:, label[block]]
+        at = base if base.shape[1] == 1 else base[:, label[block]]
         p, q, r = ([x.take(corner) - b for x, b in zip(xyz, at, strict=True)] for corner in by_corner(face))
         volume[block] = dot(p, cross(q, r)) / 6
     return volume

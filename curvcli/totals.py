@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON, dot, signed_volumes
+from .blocks import EPSILON, dot
 from .census import census, classify
 from .declare import Quantity, passes
 from .groups import Groups
@@ -23,9 +23,8 @@ def volumes(surface: Surface, groups: Groups) -> Floats:
     valid = counts.closed & counts.orientable & counts.balanced
     if not valid.any():
         return np.full(groups.count, np.nan)
-    volume = signed_volumes(surface, surface.components.face)
-    if surface.orientation.face_sign is not None:
-        volume *= surface.orientation.face_sign
+    sign = surface.orientation.face_sign
+    volume = surface.face_volumes if sign is None else surface.face_volumes * sign
     return np.where(valid, groups.faces.sum(volume), np.nan)
 
 

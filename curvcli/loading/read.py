@@ -6,9 +6,10 @@ import hashlib
 import importlib
 import io
 import os
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Generic, TypeVar
 
 from ..errors import InputError, UsageError
 from ..memory import require_polars
@@ -19,6 +20,8 @@ from .recognise import FORMATS, format_of_name, recognise
 from .text import SMALL
 
 _PREFIX = "curvcli-"
+
+Made = TypeVar("Made")
 
 
 def read_mesh_file(
@@ -37,16 +40,28 @@ def read_mesh_file(
     of the bounding box. max_faces, max_bytes: refuse larger files. normals: `file` also reads those of an OBJ file.
     Errors: InputError, one line that names the file, the place, what was found and what was expected.
     """
+    return read_and_make(lambda mesh: mesh, source, input_format, weld, max_faces, max_bytes, normals)
+
+
+def read_and_make(
+    make: Callable[[MeshFile], Made],
+    source: str | bytes | os.PathLike[Any] | BinaryIO,
+    input_format: str | None = None,
+    weld: str | float = "auto",
+    max_faces: int | None = None,
+    max_bytes: int | None = None,
+    normals: str = "mesh",
+) -> Made:
+    """What `make` makes of the content of a mesh file, read as `read_mesh_file` does."""
     _check_weld(weld)
     if input_format is not None and input_format.lower() not in FORMATS:
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(FORMATS)} are")
     path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
     try:
-        mesh = _read(source, path, input_format and input_format.lower(), weld, max_faces, max_bytes, normals)
+        return _read(make, source, path, input_format and input_format.lower(), weld, max_faces, max_bytes, normals)
     except InputError as error:
         place, hint = error.place and shown(error.place), error.hint and shown(error.hint)
         raise InputError(shown(error.problem), path=shown(path), place=place, hint=hint) from None
-    return replace(mesh, path=shown(path))
 
 
 def _check_weld(weld: str | float) -> None:
@@ -59,6 +74,7 @@ def _check_weld(weld: str | float) -> None:
 
 
 def _read(
+    make: Callable[[MeshFile], Made],
     source: str | bytes | os.PathLike[Any] | BinaryIO,
     path: str,
     wanted: str | None,
@@ -66,24 +82,28 @@ def _read(
     max_faces: int | None,
     max_bytes: int | None,
     normals: str,
-) -> MeshFile:
+) -> Made:
     if isinstance(source, str | bytes | os.PathLike):
         with open_regular(source, max_bytes) as file:
             wanted = wanted or format_of_name(path)
             raw = read_limited(file, max_bytes)
     else:
         raw = read_limited(source, max_bytes)
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor(3) as pool:
         digest = pool.submit(lambda: hashlib.sha256(raw).hexdigest())
         data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
         kind, notices = recognise(data, wanted)
         if len(data) > SMALL:
             pool.submit(_import_polars, len(data))
-        parsed = pool.submit(_parse, data, kind, weld, max_faces, normals)  # while trimesh is imported
-        mesh = _through_trimesh(parsed, kind)
-        check_faces(mesh.polygons, max_faces)
-        merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
-        return replace(mesh, sha256=digest.result(), weld=merged, notices=(*notices, *mesh.notices))
+
+        def content() -> Made:
+            mesh = _parse(data, kind, weld, max_faces, normals)
+            check_faces(mesh.polygons, max_faces)
+            merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
+            notes = (*notices, *mesh.notices)
+            return make(replace(mesh, path=shown(path), sha256=digest.result(), weld=merged, notices=notes))
+
+        return _through_trimesh(pool.submit(content), kind)  # made while trimesh is imported
 
 
 def _import_polars(data: int) -> None:
@@ -91,33 +111,33 @@ def _import_polars(data: int) -> None:
     importlib.import_module("polars")
 
 
-class _Parsed(io.BytesIO):
+class _Content(io.BytesIO, Generic[Made]):
     """The content behind a stream without bytes or name: trimesh can resolve no reference to another file."""
 
-    def __init__(self, content: Future[MeshFile]) -> None:
+    def __init__(self, made: Future[Made]) -> None:
         super().__init__()
-        self.content = content
+        self.made = made
 
 
-def _through_trimesh(parsed: Future[MeshFile], kind: str) -> MeshFile:
-    """The mesh as trimesh hands it on."""
+def _through_trimesh(made: Future[Made], kind: str) -> Made:
+    """The content as trimesh hands it on."""
     from trimesh.exchange.load import load_scene, mesh_loaders
 
     # A name of our own: importing curvcli changes nothing for other users of trimesh in this process.
     mesh_loaders.setdefault(_PREFIX + kind, _load)
-    scene = load_scene(_Parsed(parsed), file_type=_PREFIX + kind, process=False)
+    scene = load_scene(_Content(made), file_type=_PREFIX + kind, process=False)
     (mesh,) = scene.geometry.values()
-    content: MeshFile = mesh.metadata["curvcli"]
+    content: Made = mesh.metadata["curvcli"]
     return content
 
 
-def _load(file_obj: _Parsed, **_: Any) -> dict[str, Any]:
+def _load(file_obj: _Content[Any], **_: Any) -> dict[str, Any]:
     """A trimesh loader: the keyword arguments of a Trimesh, and the whole content of the file under its metadata."""
     import numpy as np
 
     # trimesh would turn corners into int64 and rows into columns; who wants a Trimesh builds it from the surface.
     nothing = np.empty((0, 3))
-    return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": file_obj.content.result()}}
+    return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": file_obj.made.result()}}
 
 
 def _parse(data: bytes, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:

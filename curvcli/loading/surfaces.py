@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from typing import Any, BinaryIO, Literal
 
 from ..errors import InputError
@@ -29,11 +30,17 @@ def load(
     the normals of an OBJ file; those of a PLY file are among its properties anyhow.
     Errors: InputError, one line with file, place, expectation and way out.
     """
-    from .read import read_mesh_file
+    from .read import read_and_make
 
-    limits = {"max_faces": max_faces, "max_bytes": max_bytes}
-    file = read_mesh_file(source, input_format=input_format, weld=weld, normals=normals, **limits)
-    return from_file(file, orient)
+    importing = "trimesh" not in sys.modules
+
+    def surface(file: MeshFile) -> Surface:
+        made = from_file(file, orient)
+        if importing:
+            made.edges  # noqa: B018  (needed for almost everything, and the import of trimesh leaves the time)
+        return made
+
+    return read_and_make(surface, source, input_format, weld, max_faces, max_bytes, normals)
 
 
 def from_file(file: MeshFile, orient: Orient = "file") -> Surface:

@@ -231,6 +231,8 @@ def _alone(whole: Piece) -> Piece:
 
 def loops(analysis: Analysis) -> list[dict[str, Any]]:
     """One row per boundary loop, vectors as lists."""
+    if not analysis.surface.boundary_edges.any():
+        return []
     from ..curves.loops import loop_table
 
     columns = {

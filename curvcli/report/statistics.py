@@ -45,7 +45,7 @@ def statistics(
     ordered = np.sort(numbers)
     size = np.ldexp(1.0, int(np.frexp(max(abs(ordered[0]), abs(ordered[-1])))[1]) - 1) or 1.0
     scaled = numbers / size
-    low, median, high = np.quantile(ordered / size, [0.02, 0.5, 0.98]) * size
+    low, median, high = (_quantile(ordered, share, size) for share in (0.02, 0.5, 0.98))
     weight = float(area.sum())
     return ColumnStatistics(
         *described,
@@ -54,8 +54,16 @@ def statistics(
         float(scaled.mean() * size),
         float((scaled * area).sum() / weight * size) if weight > 0 else None,
         float(scaled.std() * size),
-        float(low),
-        float(median),
-        float(high),
+        low,
+        median,
+        high,
         nulls,
     )
+
+
+def _quantile(ordered: NDArray[np.float64], share: float, size: float) -> float:
+    """The value below which a share of the ordered values lies; size: what they are divided by meanwhile."""
+    place = share * (len(ordered) - 1)
+    below = int(place)
+    first, second = ordered[below] / size, ordered[min(below + 1, len(ordered) - 1)] / size
+    return float((first + (second - first) * (place - below)) * size)
