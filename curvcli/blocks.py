@@ -7,7 +7,6 @@ and `np.add.at` scatters; this is several times faster than the same formulas on
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -171,21 +170,12 @@ def star_sums(surface: Surface) -> StarSums:
     Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The gradient
     of a triangle's area with respect to a corner is half the opposite edge turned within its plane, ½ ν × d.
     """
-    xyz, faces = surface.xyz, surface.faces
-    surface.corner_count  # noqa: B018  (both threads need it)
-    with ThreadPoolExecutor(1) as other:
-        # Sorting edges and gathering coordinates both wait for memory, and let go of the interpreter meanwhile.
-        signs = other.submit(lambda: surface.corner_sign)
-        sums = _sweep(xyz, faces)
-        sign = signs.result()
-    if sign is not None:
-        sums.vector[:] = _signed_vector_areas(surface, sign)
+    sums = _sweep(surface.xyz, surface.faces, surface.corner_sign)
     _resum_large_stars(surface, sums.angle_sum, sums.area, *sums.vector, *sums.gradient)
     return sums
 
 
-def _sweep(xyz: Floats, faces: Index) -> StarSums:
-    """The star sums with every face as the file winds it."""
+def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     n, n_faces = xyz.shape[1], len(faces)
     angle, area, half_perimeters = np.zeros(n), np.zeros(n), np.zeros(n)
     vector, gradient = np.zeros((3, n)), np.zeros((3, n))
@@ -206,23 +196,12 @@ def _sweep(xyz: Floats, faces: Index) -> StarSums:
         at_0, at_2 = _gradient_terms(t)
         for k in range(3):
             third = t.normal[k] / 6
-            for corner in face:
-                np.add.at(vector[k], corner, third)
+            for j, corner in enumerate(face):
+                np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
             np.add.at(gradient[k], face[0], at_0[k])
             np.add.at(gradient[k], face[1], -at_0[k] - at_2[k])
             np.add.at(gradient[k], face[2], at_2[k])
     return StarSums(angle, area, vector, gradient, half_perimeters, face_area, degenerate, coincident)
-
-
-def _signed_vector_areas(surface: Surface, sign: Sign) -> Floats:
-    """(3, V) vector areas of the stars where some face enters some star against its winding."""
-    vector = np.zeros((3, surface.n_vertices))
-    for block in face_blocks(surface.n_faces):
-        normal = triangles(surface.xyz, surface.faces[block]).normal
-        for row, component in zip(vector, normal, strict=True):
-            for corner, way in zip(by_corner(surface.faces[block]), sign[block].T, strict=True):
-                np.add.at(row, corner, component / 6 * way)
-    return vector
 
 
 def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:

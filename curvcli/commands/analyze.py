@@ -170,6 +170,7 @@ class Run:
         from ..analysis import analyze
         from ..loading.surfaces import load
         from ..output.write import write_into
+        from ..report.model import model
         from ..report.words import shell_quoted
         from .progress import phase
 
@@ -179,11 +180,18 @@ class Run:
             surface = load(source, weld=self.weld, **asked, **self.limits)
         with phase(f"computing {mesh}", self.quiet) as computing:
             analysis = analyze(surface, self.passes, weld=self.weld, **self.conventions)
-        with phase(f"checking {mesh}", self.quiet) as checking:
-            _ = analysis.checks
-        analysis.timings |= {"read": reading.seconds, "compute": computing.seconds, "check": checking.seconds}
-        if paths or tables:
-            with phase(f"writing {mesh}", self.quiet):
+        analysis.timings |= {"read": reading.seconds, "compute": computing.seconds}
+
+        def check() -> None:
+            if not self.somebody_asks(paths):
+                return
+            with phase("", quiet=True) as checking:
+                _ = analysis.checks
+            analysis.timings["check"] = checking.seconds
+            model(analysis)  # its parts are kept for what is said later
+
+        with phase(f"{'checking and writing' if paths or tables else 'checking'} {mesh}", self.quiet):
+            if paths or tables:
                 analysis.extra_notices += write_into(
                     outputs,
                     analysis,
@@ -193,8 +201,20 @@ class Run:
                     tables,
                     tell=self.tell_of_picture,
                     command=shell_quoted(["curvcli", *sys.argv[1:]]),
+                    meanwhile=check,
                 )
+            else:
+                check()
         return analysis
+
+    def somebody_asks(self, paths: list[str]) -> bool:
+        """Whether anything that is said or written depends on the checks."""
+        from ..output.formats import format_of
+
+        said = self.as_json or self.get is not None or self.strict or not (self.quiet or self.to_stdout)
+        name = self.stream_format
+        kinds = {format_of(path, name=name if path == "-" else None).kind for path in paths}
+        return said or not kinds <= {"table", "mesh", "picture"}
 
     def tell_of_picture(self, line: str) -> None:
         """What a picture leaves out, on stderr."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
+from threading import Event
 from typing import IO, Any, BinaryIO, TypeAlias, cast
 
 import numpy as np
@@ -22,12 +23,18 @@ _ROWS_AT_A_TIME = 8192
 
 
 def write_table(
-    stream: BinaryIO, columns: Mapping[str, Column], suffix: str, *, precision: str | int = SHORTEST
+    stream: BinaryIO,
+    columns: Mapping[str, Column],
+    suffix: str,
+    *,
+    precision: str | int = SHORTEST,
+    stop: Event | None = None,
 ) -> None:
     """Write equally long columns as `.csv`, `.tsv`, `.parquet` or `.npz` to any binary stream.
 
     columns: float64 (NaN is null), integers, booleans, masked integers (masked is null), or Labels (-1 is null).
     precision: of the text formats; `shortest` reads back to the same double, N rounds to N significant digits.
+    stop: ends the writing of text and Parquet half-way once another thread has set it.
     Null is an empty cell in text, null in Parquet, and NaN in npz, where Labels become codes and `NAME_names`.
     Errors: UsageError for a precision outside 1..17.
     """
@@ -36,7 +43,7 @@ def write_table(
         return
     digits = parse_precision(precision)
     frame = pl.DataFrame([_series(name, column) for name, column in columns.items()])
-    relay = _Relay(stream)
+    relay = _Relay(stream, stop)
     try:
         if suffix == ".parquet":
             frame.write_parquet(cast("IO[bytes]", relay))
@@ -66,8 +73,8 @@ def parse_precision(precision: str | int) -> int | None:
 class _Relay(io.RawIOBase):
     """Hands bytes on and remembers what went wrong, which polars would turn into words of its own."""
 
-    def __init__(self, stream: BinaryIO):
-        self.stream = stream
+    def __init__(self, stream: BinaryIO, stop: Event | None):
+        self.stream, self.stop = stream, stop
         self.failure: BaseException | None = None
 
     def writable(self) -> bool:
@@ -75,6 +82,8 @@ class _Relay(io.RawIOBase):
 
     def write(self, data: Any) -> int:
         try:
+            if self.stop is not None and self.stop.is_set():
+                raise InterruptedError("told to stop")
             return self.stream.write(data)
         except BaseException as failure:
             self.failure = failure

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from threading import Event
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -13,9 +15,9 @@ import numpy as np
 from ..declare import Quantity, passes
 from ..errors import Notice, UsageError
 from ..memory import require_polars
-from ..tables import TABLES, vertex_properties, vertex_table
+from ..tables import TABLES, Table, vertex_properties, vertex_table
 from .atomic import Outputs
-from .formats import format_of
+from .formats import Format, format_of
 from .look import Look, check_look, parse_view, require_vtk
 
 if TYPE_CHECKING:
@@ -70,39 +72,66 @@ def write_into(
     tables: Iterable[tuple[str, str]] = (),
     tell: Callable[[str], None] = lambda line: None,
     command: str | None = None,
+    meanwhile: Callable[[], None] = lambda: None,
 ) -> list[Notice]:
     """Write the vertex table, mesh, picture or report that each path's suffix names into outputs that are open already.
 
     tables: pairs of a kind (`edges`, `faces`, …) and a path. tell: takes what a picture leaves out, a line at a time.
-    command: what makes these outputs, for the pages that say so.
+    command: what makes these outputs, for the pages that say so. meanwhile: work that the reports need, done while the
+    tables are written: polars formats them outside the interpreter.
     """
     notices: list[Notice] = []
     require_polars(64 * analysis.surface.n_vertices)
-    for kind_of_table, path in tables:
-        from .tables import write_table
+    formats = {path: format_of(path, name=stream_format if path == "-" else None) for path in paths}
+    stop = Event()
+    with ThreadPoolExecutor(1) as other:
+        try:
+            written = [
+                other.submit(_write_table, outputs, path, columns, suffix, appearance.precision, stop)
+                for path, columns, suffix in _tables(analysis, formats, tables, stream_format)
+            ]
+            for path in (path for path, found in formats.items() if found.kind == "mesh"):
+                with outputs.open(path) as stream:
+                    notices += _write_mesh(stream, analysis, formats[path].suffix, appearance)
+            meanwhile()
+            for path, found in formats.items():
+                if found.kind in ("table", "mesh"):
+                    continue
+                with outputs.open(path) as stream:
+                    if found.kind == "picture":
+                        for line in _write_picture(stream, analysis, found.suffix, appearance):
+                            tell(f"{path}: {line}")
+                    elif found.kind == "page":
+                        _write_page(stream, analysis, found.suffix, appearance, command)
+                    else:
+                        from ..report.model import encode, model
 
-        with outputs.open(path) as stream:
-            suffix = format_of(path, name=stream_format if path == "-" else None, kinds=["table"]).suffix
-            write_table(stream, TABLES[kind_of_table](analysis), suffix, precision=appearance.precision)
-    for path in paths:
-        kind = format_of(path, name=stream_format if path == "-" else None)
-        with outputs.open(path) as stream:
-            if kind.kind == "table":
-                from .tables import write_table
-
-                write_table(stream, vertex_table(analysis), kind.suffix, precision=appearance.precision)
-            elif kind.kind == "mesh":
-                notices += _write_mesh(stream, analysis, kind.suffix, appearance)
-            elif kind.kind == "picture":
-                for line in _write_picture(stream, analysis, kind.suffix, appearance):
-                    tell(f"{path}: {line}")
-            elif kind.kind == "page":
-                _write_page(stream, analysis, kind.suffix, appearance, command)
-            else:
-                from ..report.model import encode, model
-
-                stream.write(encode(model(analysis)))
+                        stream.write(encode(model(analysis)))
+            for table in written:
+                table.result()
+        except BaseException:
+            stop.set()
+            raise
     return notices
+
+
+def _tables(
+    analysis: Analysis, formats: Mapping[str, Format], others: Iterable[tuple[str, str]], stream_format: str | None
+) -> Iterator[tuple[str, Table, str]]:
+    """Path, columns and suffix of every table that is wanted."""
+    for kind, path in others:
+        suffix = format_of(path, name=stream_format if path == "-" else None, kinds=["table"]).suffix
+        yield path, TABLES[kind](analysis), suffix
+    wanted = [path for path, found in formats.items() if found.kind == "table"]
+    columns = vertex_table(analysis) if wanted else {}
+    yield from ((path, columns, formats[path].suffix) for path in wanted)
+
+
+def _write_table(outputs: Outputs, path: str, columns: Table, suffix: str, precision: str | int, stop: Event) -> None:
+    from .tables import write_table
+
+    with outputs.open(path) as stream:
+        write_table(stream, columns, suffix, precision=precision, stop=stop)
 
 
 def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterable[str] = ()) -> None:

@@ -179,7 +179,7 @@ def schema() -> bytes:
 def model(analysis: Analysis) -> Report:
     """The report of an analysis."""
     surface, file = analysis.surface, analysis.surface.file
-    whole = pieces(analysis, surface.whole)[0]
+    whole = analysis.once("whole", lambda: pieces(analysis, surface.whole)[0])
     conventions = analysis.conventions
     return Report(
         schema_version=1,
@@ -198,10 +198,10 @@ def model(analysis: Analysis) -> Report:
         cmc=whole.cmc,
         minimal=whole.minimal,
         normals=whole.normals,
-        components=[_alone(whole)] if surface.components.count == 1 else pieces(analysis, surface.components),
-        loops=loops(analysis),
-        regions=pieces(analysis.cut, analysis.cut_groups) if analysis.cut is not None else [],
-        columns=_columns(analysis),
+        components=analysis.once("components", lambda: _components(analysis, whole)),
+        loops=analysis.once("loops", lambda: loops(analysis)),
+        regions=analysis.once("regions", lambda: _regions(analysis)),
+        columns=analysis.once("columns", lambda: _columns(analysis)),
         checks=[CheckRow(**vars(check)) for check in analysis.checks],
         warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
         timings=analysis.timings,
@@ -224,9 +224,15 @@ def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
     ]
 
 
-def _alone(whole: Piece) -> Piece:
-    """The only component of a surface, from the surface itself: a component has no vertices that no face uses."""
-    return replace(whole, topology=replace(whole.topology, unreferenced_vertices=0))
+def _components(analysis: Analysis, whole: Piece) -> list[Piece]:
+    """The components of a surface; a single one from the surface itself, but for the vertices that no face uses."""
+    if analysis.surface.components.count == 1:
+        return [replace(whole, topology=replace(whole.topology, unreferenced_vertices=0))]
+    return pieces(analysis, analysis.surface.components)
+
+
+def _regions(analysis: Analysis) -> list[Piece]:
+    return [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
 
 
 def loops(analysis: Analysis) -> list[dict[str, Any]]:
