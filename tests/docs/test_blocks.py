@@ -49,6 +49,15 @@ def test_blocks_of_data_can_be_read(name: str) -> None:
             readers[block.language](block.code)
 
 
+def test_what_the_readme_installs_is_run_in_an_empty_environment() -> None:
+    """`.ci/run` runs the first two blocks of commands as they stand."""
+    commands = [block.code for block in blocks("README.md") if block.language == "sh"]
+    assert [INSTALLS in code for code in commands] == [True, True] + [False] * (len(commands) - 2)
+    run = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    assert 'eval "$(command_of 1)"' in run
+    assert 'eval "$(command_of 2)"' in run
+
+
 # ---------------------------------------------------------------------------- blocks that run
 
 
