@@ -13,7 +13,12 @@ from . import options
 @click.option("--markdown", is_flag=True, help="The documentation page of all quantities.")
 @options.schema
 def command(name: str | None, as_json: bool, markdown: bool) -> None:
-    """Every quantity with its symbol, formula, kind and unit; with NAME, all that is known about one."""
+    """Every quantity with its symbol, formula, kind and unit, and which curvature to take; with NAME, all about one.
+
+    Measures (K, H_vec, A) are exact in sum. At a point of a smooth surface take K_fit and h_fit on clean meshes,
+    K_corrected and h_corrected at a radius above the noise on scans; K_ring and h_ring average the measures.
+    `curvcli help estimates` tells when to use which, in five sentences and one table.
+    """
     from ..report.quantities import describe, listing
 
     if markdown:

@@ -79,6 +79,12 @@ def _quantities() -> str:
     return _table("Quantities; `curvcli passes NAME` tells all about one", rows)
 
 
+def _estimates() -> str:
+    from ..report.advice import plain
+
+    return plain()
+
+
 def _schemas() -> str:
     from .schemas import SCHEMAS
 
@@ -92,6 +98,7 @@ def _schemas() -> str:
 TOPICS: dict[str, Topic] = {
     "conventions": Topic("signs, factors, units, what undefined means", _page("conventions")),
     "quantities": Topic("every column in one line", _quantities),
+    "estimates": Topic("which curvature to take: measures, averages, corrected curvatures, fits", _estimates),
     "checks": Topic("identities and requirements, and what a pass proves", _checks),
     "formats": Topic("files that are read and written", _formats),
     "schemas": Topic("JSON Schemas of everything written as JSON", _schemas),

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+from ..report.advice import markdown as advice
 from ..report.quantities import page as quantities
 from .checks import page as checks
 from .command_line import page as command_line
@@ -27,6 +28,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "outputs": outputs,
     "modules": modules,
     "columns": columns,
+    "advice": advice,
 }
 
 _PART = re.compile(r"(<!-- made: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)

@@ -7,11 +7,13 @@ from typing import Any, TypedDict
 
 from rich import box
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
 from ..errors import UsageError
 from ..pipeline import in_order, load_passes, resolve
+from .advice import plain
 
 _PLAIN = str.maketrans("", "", "*")
 
@@ -109,7 +111,8 @@ def listing() -> None:
         table.add_row(*(cell.replace("[", r"\[") for cell in cells))
     console = Console(highlight=False, soft_wrap=False)
     console.print(table)
-    console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]")
+    console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]\n")
+    console.print(escape(plain()), soft_wrap=True, end="")
 
 
 def describe(name: str) -> None:

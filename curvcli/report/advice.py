@@ -1,0 +1,69 @@
+"""Which curvature to take: five sentences and one table, for the terminal and the documentation."""
+
+from __future__ import annotations
+
+SENTENCES = (
+    "What has to add up (total curvature, forces, energies, regions) is asked of the measures K, H_vec and A: they are "
+    "exact on every mesh, and no estimate changes them.",
+    "The curvature at a point of a smooth surface, on a mesh without noise, is K_fit, h_fit, kappa_1_fit and "
+    "kappa_2_fit: of all estimates here they come nearest and converge fastest.",
+    "On a noisy mesh, such as a scan, it is K_corrected, h_corrected, kappa_1_corrected and kappa_2_corrected at a "
+    "radius well above the noise: --radius 2e,4e,8e gives one column for each, and where neighbouring scales agree the "
+    "value can be trusted.",
+    "Where the file has good normals of its own, --normals file lets the corrected curvatures use them, and --rings 1 "
+    "will do; from the triangles alone one ring is quick but does not converge on bad triangulations.",
+    "K_ring and h_ring tell how much of the exact measure lies in a neighbourhood per area, which is a fact about the "
+    "mesh; K_density, h and kappa_1 are the same of a single star and, as estimates, belong on regular meshes only.",
+)
+
+# What the numbers are, NOTE says.
+HEADER = ("columns", "what they are", "on the boundary", "error of K", "error of H, noise")
+ROWS = (
+    ("K, H_vec, A", "measures of a star, exact in sum", "K null, kappa_g", "", ""),
+    ("K_density, h", "measures of a star per area", "null", "0.55, 6.2, 0.51", "over 7 (one star)"),
+    ("*_ring", "measures of a neighbourhood per area", "null", "0.036, 0.61, 0.054", "0.23, 0.19, 0.24"),
+    (
+        "*_corrected",
+        "measures with interpolated normals",
+        "from one side",
+        "0.000, 0.023, 0.030",
+        "0.049, 0.043, 0.055",
+    ),
+    ("*_fit", "polynomial of least squares", "from one side", "0.000, 0.002, 0.004", "0.045, 0.070, 0.059"),
+)
+NOTE = (
+    "Relative L² errors on 10,000 vertices of a sphere, a torus and an ellipsoid, triangulations of random points; K "
+    "at the default scale of 2 rings, H over 5 rings with noise of a thousandth of the size. "
+    "libigl's principal_curvature over 5 rings: 0.021, 0.080, 0.033 and 0.22, 0.29, 0.23."
+)
+
+
+def markdown() -> str:
+    """The sentences as a list and the table."""
+    lines = [f"{number}. {_marked(sentence)}" for number, sentence in enumerate(SENTENCES, 1)]
+    lines += ["", "| " + " | ".join(HEADER) + " |", "|" + "---|" * len(HEADER)]
+    lines += ["| " + " | ".join((_marked(row[0]), *row[1:])) + " |" for row in ROWS]
+    return "\n".join([*lines, "", NOTE, ""])
+
+
+def plain() -> str:
+    """The same for a terminal of 100 columns."""
+    from textwrap import wrap
+
+    parts = ["# Which curvature to take", ""]
+    for sentence in SENTENCES:
+        parts += [*wrap(sentence, 98, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)]
+    widths = [max(len(row[k]) for row in (HEADER, *ROWS)) for k in range(len(HEADER))]
+    parts.append("")
+    for row in (HEADER, *ROWS):
+        parts.append("  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())
+    return "\n".join([*parts, "", *wrap(NOTE, 100)]) + "\n"
+
+
+def _marked(text: str) -> str:
+    """Names of columns and options as code."""
+    import re
+
+    return re.sub(
+        r"--[a-z]+(?: (?:file|\d[\de,]*))?|\*_\w+|\b(?:[KH]_\w+|kappa_\w+|h_\w+)\b|\b[KAh]\b", r"`\g<0>`", text
+    )
