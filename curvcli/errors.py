@@ -32,7 +32,8 @@ class InputError(CurvcliError):
         super().__init__(problem)
 
     def __str__(self) -> str:
-        line = ": ".join(part for part in (self.path, self.place, self.problem) if part)
+        path = "''" if self.path == "" else self.path
+        line = ": ".join(part for part in (path, self.place, self.problem) if part)
         return f"{line}; {self.hint}" if self.hint else line
 
 

@@ -60,8 +60,9 @@ def resolve(names: Iterable[str]) -> list[str]:
         elif name in public or name in stems:
             wanted.add(stems.get(name, name))
         else:
-            near = get_close_matches(name, [*presets, *public], 3, 0.4) or ["`curvcli passes` lists them"]
-            raise UsageError(f"unknown pass {name!r}; nearest: {', '.join(near)}")
+            near = get_close_matches(name, [*presets, *public], 3, 0.4)
+            way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
+            raise UsageError(f"unknown pass {name!r}; {way_out}")
     return in_order(name for name in public if name in wanted)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Literal
 
@@ -56,9 +57,8 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
         from importlib.metadata import entry_points
 
         plug_ins = [(one.name, one.dist and one.dist.version) for one in entry_points(group="curvcli.passes")]
-        return hashlib.sha256(
-            msgspec.json.encode([msgspec.structs.replace(self, command=None), sorted(plug_ins)])
-        ).hexdigest()
+        which = msgspec.to_builtins([msgspec.structs.replace(self, command=None), sorted(plug_ins)])
+        return hashlib.sha256(json.dumps(which).encode("ascii")).hexdigest()  # not UTF-8, which some labels are not
 
 
 class Limits(msgspec.Struct, frozen=True):

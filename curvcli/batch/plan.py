@@ -70,7 +70,10 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
         if kind and (kind not in TABLES or kind == "vertices"):
             kinds = ", ".join(kind for kind in TABLES if kind != "vertices")
             raise UsageError(f"--save {shown(one)}: expected KIND.SUFFIX with KIND one of {kinds}")
-        format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "page", "picture"])
+        try:
+            format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "page", "picture"])
+        except UsageError as error:
+            raise UsageError(f"--save {shown(one)}: {str(error).partition(': ')[2]}") from None
         found[one] = None
     return tuple(found)
 

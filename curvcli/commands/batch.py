@@ -38,10 +38,16 @@ if TYPE_CHECKING:
 )
 @click.option("--resume", is_flag=True, help="Go on in DIR: skip what is done and unchanged.")
 @click.option(
-    "--timeout", metavar="SECONDS", type=click.FloatRange(0, min_open=True), help="Give up a mesh that takes longer."
+    "--timeout",
+    metavar="SECONDS",
+    type=options.Finite(0, 1e9, min_open=True),
+    help="Give up a mesh that takes longer.",
 )
 @click.option(
-    "--max-memory", metavar="MB", type=click.IntRange(512), help="Give up a mesh that needs more than this. Linux only."
+    "--max-memory",
+    metavar="MB",
+    type=click.IntRange(512, 1 << 40),
+    help="Give up a mesh that needs more than this. Linux only.",
 )
 @options.passes
 @click.option("--regions", metavar="groups|objects|materials|PROPERTY", help="Labels of faces within each mesh.")
@@ -98,6 +104,8 @@ def run(
     from ..report.words import shell_quoted
     from .main import worst
 
+    if not folder:
+        raise UsageError("-o: expected a folder")
     if resume and force:
         raise UsageError("--resume keeps what --force would replace; choose one")
     if max_memory is not None and not sys.platform.startswith("linux"):

@@ -31,13 +31,13 @@ _CONVENTIONS = (
 @click.argument("b", metavar="B")
 @click.option(
     "--rtol",
-    type=click.FloatRange(0),
+    type=options.Finite(0),
     default=1e-9,
     show_default=True,
     help="How far a value may move, relative to its size; 0: to the last bit.",
 )
 @click.option(
-    "--atol", type=click.FloatRange(0), default=0.0, show_default=True, help="How far a value may move besides."
+    "--atol", type=options.Finite(0), default=0.0, show_default=True, help="How far a value may move besides."
 )
 @click.option(
     "--only", metavar="KEY", multiple=True, help="Compare only this, such as totals or 'columns.K*'; repeatable."

@@ -77,7 +77,7 @@ def _table(path: str) -> dict[str, Any] | None:
             content = tomllib.load(stream)
     except OSError as error:
         raise UsageError(f"{path}: the configuration cannot be read: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # also for numbers of more digits than Python turns into an int
         raise UsageError(f"{path}: the configuration is not TOML: {error}") from None
     if os.path.basename(path) != SHARED:
         return content

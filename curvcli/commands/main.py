@@ -48,6 +48,9 @@ _CODES: tuple[tuple[type[BaseException], int], ...] = (
     (NoMatchError, NO_MATCH),
 )
 
+# Letters of either end of a message that quotes something very long.
+_SHOWN = 1000
+
 # With several inputs the worst decides.
 WORST_FIRST = (INTERNAL, OUTPUT, INPUT, FAILED_CHECK, OK)
 
@@ -219,7 +222,9 @@ def internal(error: BaseException) -> str:
 
 
 def one_line(text: str) -> str:
-    """Text on one line, control characters shown."""
+    """Text on one line, control characters shown; of a very long one the beginning and the end."""
+    if len(text) > 2 * _SHOWN:
+        text = f"{text[:_SHOWN]} … {text[-_SHOWN:]}"
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in " ".join(text.split("\n")))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +12,17 @@ if TYPE_CHECKING:
     from ..output.write import Appearance
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+
+class Finite(click.FloatRange):
+    """A number within bounds; click takes NaN for one."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number."""
+        number = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{number} is not a finite number.", param, ctx)
+        return number
 
 
 def _verbosity(context: click.Context, option: click.Parameter, value: int) -> int:
@@ -85,7 +97,17 @@ regions = click.option(
     metavar="FILE|groups|objects|materials|PROPERTY",
     help="One label per face: every integral and every check is then taken per region too.",
 )
-unit = click.option("--unit", metavar="NAME", help="Name of the unit of length, for tables and legends.")
+
+
+def _printable(_context: click.Context, _option: click.Parameter, name: str | None) -> str | None:
+    if name is not None and not name.isprintable():
+        raise click.BadParameter(f"{name!r} holds what cannot be printed")
+    return name
+
+
+unit = click.option(
+    "--unit", metavar="NAME", callback=_printable, help="Name of the unit of length, for tables and legends."
+)
 input_format = click.option(
     "--input-format", type=click.Choice(["obj", "ply", "stl"]), help="Format of the input, whatever its name."
 )
@@ -127,7 +149,7 @@ estimating = together(
     ),
     click.option(
         "--noise",
-        type=click.FloatRange(0),
+        type=Finite(0),
         metavar="SIGMA",
         help="Standard deviation of each coordinate, for K_sigma and h_sigma, which it adds to core where -p is not "
         "given.  [default: the precision of the file]",
