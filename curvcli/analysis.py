@@ -215,7 +215,7 @@ class Analysis:
 
     def report(self) -> dict[str, Any]:
         """The report of the interface, as plain Python values ready for JSON."""
-        from .report.model import build
+        from .report.build import build
 
         return build(self)
 

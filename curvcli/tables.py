@@ -83,14 +83,14 @@ def face_table(analysis: Analysis) -> Table:
 
 def component_table(analysis: Analysis) -> Table:
     """One row per component: topology, totals and the rest of the report."""
-    from .report.model import pieces
+    from .report.build import pieces
 
     return _piece_table("component", pieces(analysis, analysis.surface.components))
 
 
 def region_table(analysis: Analysis) -> Table:
     """One row per region: topology, totals and the rest of the report; no rows without `--regions`."""
-    from .report.model import pieces
+    from .report.build import pieces
 
     return _piece_table("region", pieces(analysis.cut, analysis.cut_groups) if analysis.cut is not None else [])
 

@@ -19,7 +19,7 @@ from ..loading.recognise import format_of_name
 from ..loading.surfaces import from_file
 from ..output.atomic import Outputs
 from ..output.write import write_into
-from ..report.model import pieces
+from ..report.build import pieces
 from .model import Item, Limits, Row, Settings
 from .outcome import explained
 from .places import hash_of, is_url, read_url

@@ -170,7 +170,7 @@ class Run:
         from ..analysis import analyze
         from ..loading.surfaces import load
         from ..output.write import write_into
-        from ..report.model import model
+        from ..report.build import model
         from ..report.words import shell_quoted
         from .progress import phase
 
@@ -226,7 +226,7 @@ class Run:
     def tell(self, analysis: Analysis) -> Any:
         """What goes to stdout of one analysis; the report where it is wanted later."""
         if self.as_json:
-            from ..report.model import model
+            from ..report.build import model
 
             return model(analysis)
         if self.get is not None:

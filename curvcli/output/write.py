@@ -104,7 +104,8 @@ def write_into(
                     elif found.kind == "page":
                         _write_page(stream, analysis, found.suffix, appearance, command)
                     else:
-                        from ..report.model import encode, model
+                        from ..report.build import model
+                        from ..report.model import encode
 
                         stream.write(encode(model(analysis)))
             for table in written:
@@ -226,8 +227,8 @@ def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance
 def _write_page(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance, command: str | None) -> None:
     """Write the report for people."""
     if suffix == ".md":
+        from ..report.build import model
         from ..report.markdown import markdown
-        from ..report.model import model
 
         stream.write(markdown(model(analysis), command).encode("utf-8"))
     else:

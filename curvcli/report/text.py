@@ -11,8 +11,9 @@ from rich.table import Table
 
 from ..plurals import counted
 from ..settings import in_words
+from .build import model
 from .fitting import add_numbers, fitting, plain_table
-from .model import CheckRow, Report, model
+from .model import CheckRow, Report
 from .proof import holds, proof
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ import traceback
 MODULES = (
     *("trimesh", "polars", "scipy.sparse.csgraph", "rich.console", "rich.table", "msgspec", "cmap"),
     *("curvcli.analysis", "curvcli.gate", "curvcli.differences", "curvcli.tables", "curvcli.curves", "curvcli.maps"),
-    *("curvcli.report.model", "curvcli.report.text", "curvcli.output.write", "curvcli.samples"),
+    *("curvcli.report.build", "curvcli.report.text", "curvcli.output.write", "curvcli.samples"),
     *(f"curvcli.commands.{name}" for name in ("analyze", "batch", "check", "compare", "curves", "passes", "sample")),
 )
 

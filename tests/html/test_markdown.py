@@ -10,8 +10,8 @@ from markdown_it import MarkdownIt
 
 import curvcli
 from curvcli.analysis import Analysis
+from curvcli.report.build import model
 from curvcli.report.markdown import markdown
-from curvcli.report.model import model
 from curvcli.report.words import shell_quoted, verdict
 from tests.html.pages import HOSTILE, labelled
 from tests.meshes import Mesh, grid, of_sample

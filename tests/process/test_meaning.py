@@ -15,7 +15,7 @@ from curvcli.analysis import Analysis
 from curvcli.errors import InputError, Notice
 from curvcli.findings import welding
 from curvcli.loading.weld import weld_exact
-from curvcli.report.model import model
+from curvcli.report.build import model
 from curvcli.report.proof import proof
 from curvcli.surface import Surface
 from tests import meshes

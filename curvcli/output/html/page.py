@@ -12,8 +12,8 @@ import numpy as np
 
 from ...checks.base import rules
 from ...errors import MissingExtraError
+from ...report.build import model
 from ...report.check import printable
-from ...report.model import model
 from ...report.proof import holds, proof
 from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ..camera import frame

@@ -1,0 +1,202 @@
+"""From an analysis to its report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+from msgspec.structs import replace
+
+from .._version import __version__
+from ..census import census, classify, duplicate_faces, duplicate_vertices
+from ..declare import passes
+from ..groups import Groups
+from ..surface import Surface
+from ..totals import competing_normals, constant_mean_curvature, steiner
+from .model import (
+    CONVENTIONS,
+    CheckRow,
+    Cmc,
+    Input,
+    Minimal,
+    Normals,
+    Piece,
+    Remark,
+    Report,
+    Steiner,
+    Topology,
+)
+from .statistics import ColumnStatistics, statistics
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+
+
+def build(analysis: Analysis) -> dict[str, Any]:
+    """The report as plain Python values."""
+    found: dict[str, Any] = msgspec.to_builtins(model(analysis))
+    return found
+
+
+def model(analysis: Analysis) -> Report:
+    """The report of an analysis."""
+    surface, file = analysis.surface, analysis.surface.file
+    whole = analysis.once("whole", lambda: pieces(analysis, surface.whole)[0])
+    conventions = analysis.conventions
+    return Report(
+        schema_version=1,
+        curvcli=__version__,
+        input=Input(
+            path=file.path if file else None,
+            sha256=file.sha256 if file else None,
+            format=file.format if file else None,
+            vertices=surface.n_vertices,
+            polygons=file.polygons if file else surface.n_faces,
+        ),
+        conventions={key: getattr(conventions, key) for key in CONVENTIONS},
+        topology=whole.topology,
+        totals=whole.totals,
+        steiner=whole.steiner,
+        cmc=whole.cmc,
+        minimal=whole.minimal,
+        normals=whole.normals,
+        components=analysis.once("components", lambda: _components(analysis, whole)),
+        loops=analysis.once("loops", lambda: loops(analysis)),
+        regions=analysis.once("regions", lambda: _regions(analysis)),
+        columns=analysis.once("columns", lambda: _columns(analysis)),
+        checks=[CheckRow(**vars(check)) for check in analysis.checks],
+        warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
+        timings=analysis.timings,
+    )
+
+
+def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
+    """Topology, totals and the rest for each group of a surface."""
+    counts = _counts(analysis, groups)
+    totals = {key: _plain(values) for key, values in analysis.totals_of(groups).items()}
+    extras = _extras(analysis, groups)
+    return [
+        Piece(
+            Topology(**{key: values[group] for key, values in counts.items()}),
+            {key: values[group] for key, values in totals.items()},
+            name=groups.names[group] if groups.names else msgspec.UNSET,
+            **{key: make(group) for key, make in extras.items()},
+        )
+        for group in range(groups.count)
+    ]
+
+
+def _components(analysis: Analysis, whole: Piece) -> list[Piece]:
+    """The components of a surface; a single one from the surface itself, but for the vertices that no face uses."""
+    if analysis.surface.components.count == 1:
+        return [replace(whole, topology=replace(whole.topology, unreferenced_vertices=0))]
+    return pieces(analysis, analysis.surface.components)
+
+
+def _regions(analysis: Analysis) -> list[Piece]:
+    return [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
+
+
+def loops(analysis: Analysis) -> list[dict[str, Any]]:
+    """One row per boundary loop, vectors as lists."""
+    if not analysis.surface.boundary_edges.any():
+        return []
+    from ..curves.loops import loop_table
+
+    columns = {
+        key: _plain(column) if column.dtype.kind == "f" else column.tolist()
+        for key, column in loop_table(analysis.surface).items()
+    }
+    for stem in ("vector_area", "force", "torque"):
+        axes = [columns.pop(f"{stem}_{axis}") for axis in "xyz"]
+        columns[stem] = [list(vector) for vector in zip(*axes, strict=True)]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+
+def _extras(analysis: Analysis, groups: Groups) -> dict[str, Callable[[int], Any]]:
+    """What only some passes allow: for each key a function from the group to its value."""
+    surface, columns = analysis.surface, analysis.columns
+    factor = 0.5 if analysis.conventions.mean == "average" else 1.0
+    found: dict[str, Callable[[int], Any]] = {}
+    if columns.keys() >= {"H_vec", "A_vec"}:
+        bent = constant_mean_curvature(surface, groups, columns)
+        exponents = {"H": -1, "residual_max": 1, "H_vec_max": 1}
+        shown = {key: _plain(surface.in_file_unit(values, exponents[key]) * factor) for key, values in bent.items()}
+        found["cmc"] = lambda group: Cmc(shown["H"][group], shown["residual_max"][group])
+        found["minimal"] = lambda group: Minimal(shown["H_vec_max"][group])
+    if columns.keys() >= {"H_vec", "star_vector"}:
+        angles = {key: _plain(values) for key, values in competing_normals(surface, groups, columns).items()}
+        found["normals"] = lambda group: Normals(angles["angle_max"][group], angles["angle_mean"][group])
+    if columns.keys() >= {"face_area", "H_theta", "K", "K_minus"}:
+        polynomial = steiner(surface, groups, columns)
+        rows = _plain(polynomial["coefficients"])
+        found["steiner"] = lambda group: Steiner(rows[group], bool(polynomial["convex"][group]))
+    return found
+
+
+def _counts(analysis: Analysis, groups: Groups) -> dict[str, list[Any]]:
+    """The columns of the topology table, one entry per group."""
+    surface = analysis.surface
+    kinds = classify(surface, groups)
+    classified = {
+        key: [None if math.isnan(value) else round(value) for value in getattr(kinds, key)]
+        for key in ("boundary_loops", "genus", "crosscaps")
+    }
+    counted = {key: column.tolist() for key, column in vars(census(surface, groups)).items()}
+    counted |= {"components": kinds.components.tolist()} | classified | _defects(analysis, groups)
+    return {key: counted[key] for key in Topology.__struct_fields__}
+
+
+def _defects(analysis: Analysis, groups: Groups) -> dict[str, list[int]]:
+    """Counts per group that need more than the edges."""
+    surface = analysis.surface
+    faces, vertices = np.zeros(surface.n_faces, bool), np.zeros(surface.n_vertices, bool)
+    faces[duplicate_faces(surface)] = True
+    vertices[duplicate_vertices(surface)] = True
+    loose = surface.n_vertices - int(np.count_nonzero(surface.referenced)) - merged(surface)
+    return {
+        "degenerate_faces": groups.faces.count_true(analysis.columns["degenerate_face"]).tolist(),
+        "duplicate_faces": groups.faces.count_true(faces).tolist(),
+        "unreferenced_vertices": [loose if groups.kind == "whole" else 0] * groups.count,
+        "duplicate_vertices": groups.vertices.count_true(vertices).tolist(),
+    }
+
+
+def merged(surface: Surface) -> int:
+    """Rows whose values stand in the row they were welded to."""
+    welded = surface.file.welded_to if surface.file is not None else None
+    return 0 if welded is None else int(np.count_nonzero(welded >= 0))
+
+
+def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
+    surface = analysis.surface
+    area = analysis.columns["star_area"]
+    found: dict[str, ColumnStatistics] = {}
+    for name in analysis.chosen:
+        quantity = passes.quantity(name)
+        if quantity.on != "vertex" or quantity.kind == "label":
+            continue
+        shown = analysis.column(name)
+        each = shown.T if quantity.vector else [shown]
+        for column, values in zip(quantity.columns, each, strict=True):
+            found[column] = statistics(
+                quantity, values, area, surface.referenced, quantity.unit(analysis.conventions.unit)
+            )
+    return found
+
+
+def _plain(values: Any) -> list[Any]:
+    """Lists for JSON, with None for what is undefined: a number that is none, a vector without a component."""
+    return [_vector(row) if isinstance(row, list) else _number(row) for row in values.tolist()]
+
+
+def _vector(row: list[float]) -> list[float | None] | None:
+    shown = [_number(x) for x in row]
+    return None if all(x is None for x in shown) else shown
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
