@@ -26,7 +26,7 @@ _TOPOLOGY = {
 def markdown(report: Report, command: str | None = None) -> str:
     """One line of verdict; checks, failing first; warnings with the way out; topology, totals, and how it was made."""
     failed = any(row.status == "fail" for row in report.checks)
-    name = _code(report.input.path or "arrays in memory")
+    name = _code({None: "arrays in memory", "-": "stdin"}.get(report.input.path, str(report.input.path)))
     parts = [
         f"### curvcli: {name}",
         f"**{'FAIL' if failed else 'pass'}** · {verdict(report)} · {shape(report.topology)}",

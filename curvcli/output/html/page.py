@@ -78,7 +78,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
     facts = msgspec.to_builtins(msgspec.structs.replace(report, **first))
     text = templates.get_template("page.html").render(
         report=facts,
-        title=report.input.path or "arrays in memory",
+        title={None: "arrays in memory", "-": "stdin"}.get(report.input.path, report.input.path),
         verdict=verdict(report),
         holds=holds(report),
         proof=proof(report),
