@@ -6,7 +6,6 @@ surface the fit has the small bias of degree 4, and on a noisy one the small var
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -148,16 +147,12 @@ def _condition(given: Moments, lower: Floats) -> Floats:
 
 
 def _dilution(lower: Floats, begin: int, end: int) -> Floats:
-    """(m,) tr N tr S⁻¹/p² of the p terms of one degree, N their part of the normal matrix and S what the lower degrees
-    leave of it, with √(binomial) before each term: how much determining them costs, 1 at best; turning keeps it.
+    """(m,) tr S⁻¹N/p of the p terms of a degree, N their part of the normal matrix, S what lower degrees leave of it.
+
+    It says how much determining them costs, 1 at best; no linear map of the coordinates changes it.
     """
-    part = lower[begin:end, begin:end]
-    degree = end - begin - 1
-    weight = np.array([math.comb(degree, j) for j in range(degree + 1)], np.float64)
-    inverse = _inverse(part)
-    size = np.einsum("ikj,ikj,i->j", lower[begin:end, :end], lower[begin:end, :end], weight)
-    spread = np.einsum("ikj,ikj,k->j", inverse, inverse, 1 / weight)
-    return np.asarray(size * spread / (degree + 1) ** 2, np.float64)
+    part = np.einsum("ikj,klj->ilj", _inverse(lower[begin:end, begin:end]), lower[begin:end, :begin])
+    return np.asarray(1 + np.einsum("ikj,ikj->j", part, part) / (end - begin), np.float64)
 
 
 def _inverse(part: Floats) -> Floats:
