@@ -35,7 +35,7 @@ def command(topic: str | None) -> int:
 
 def overview(topics: dict[str, Topic]) -> None:
     """List the topics."""
-    formatter = click.HelpFormatter(max_width=100)
+    formatter = click.HelpFormatter(width=100)
     with formatter.section("Topics, `curvcli help TOPIC`"):
         formatter.write_dl([(name, topic.summary) for name, topic in topics.items()])
     click.echo(
