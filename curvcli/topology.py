@@ -7,6 +7,7 @@ Everything is counting and gathering over whole arrays, linear in the mesh.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,17 +63,26 @@ def ends(faces: Index) -> tuple[Index, Index]:
 
 def find_edges(faces: Index, vertices: int) -> Edges:
     """Sort the half-edges by their ends with two counting sorts (the transposition of a sparse matrix is one)."""
+    by_high = _by_high(faces, vertices)
+    n = len(by_high.data)
+    by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
+    del by_high  # each array let go is memory that need not be touched for the first time
+    high, order, rows = by_low.indices, by_low.data, by_low.indptr
+    low = np.repeat(np.arange(vertices, dtype=np.int32), np.diff(rows))
+    first = np.ones(n, bool)
+    np.not_equal(high[1:], high[:-1], out=first[1:])
+    first[1:] |= low[1:] != low[:-1]
+    start = np.full(int(np.count_nonzero(first)) + 1, n, np.int32)
+    start[:-1] = np.flatnonzero(first)
+    return Edges(low[start[:-1]], high[start[:-1]], np.diff(start), order, start)
+
+
+def _by_high(faces: Index, vertices: int) -> Any:
+    """The half-edges sorted by their higher end: a sparse matrix of lower ends, a row for each half-edge."""
     tail, head = ends(faces)
     n = len(tail)
     low, high = np.minimum(tail, head), np.maximum(tail, head, out=head)
-    by_high = csr_array((low, high, np.arange(n + 1, dtype=np.int32)), shape=(n, vertices)).tocsc()
-    by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
-    low = np.repeat(np.arange(vertices, dtype=np.int32), np.diff(by_low.indptr))
-    first = np.ones(n, bool)
-    np.not_equal(by_low.indices[1:], by_low.indices[:-1], out=first[1:])
-    first[1:] |= low[1:] != low[:-1]
-    start = np.append(np.flatnonzero(first), n).astype(np.int32)
-    return Edges(low[start[:-1]], by_low.indices[start[:-1]], np.diff(start), by_low.data, start)
+    return csr_array((low, high, np.arange(n + 1, dtype=np.int32)), shape=(n, vertices)).tocsc()
 
 
 def find_twins(edges: Edges) -> Index:
@@ -91,12 +101,24 @@ def label_graph(nodes: int, one: NDArray[np.integer], other: NDArray[np.integer]
 
 
 def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
-    """Pieces connected by shared vertices; an unreferenced vertex is a piece of its own here."""
-    indptr = np.zeros(vertices + 1, np.int32)
-    np.cumsum(np.bincount(edges.a, minlength=vertices), out=indptr[1:])
-    graph = csr_array((np.ones(len(edges), np.int8), edges.b, indptr), shape=(vertices, vertices))
-    count, label = connected_components(graph, directed=False)
-    return int(count), label
+    """Pieces connected by shared vertices; an unreferenced vertex is a piece of its own here.
+
+    Every vertex points to its lowest neighbour if that is lower, and pointers are followed to their ends; the few
+    vertices without a lower neighbour are left to be joined.
+    """
+    own = np.arange(vertices, dtype=np.int32)
+    parent = own.copy()
+    parent[edges.b[::-1]] = edges.a[::-1]  # edges are sorted by a: the lowest is written last
+    while not np.array_equal(further := parent[parent], parent):
+        parent = further
+    lowest = np.flatnonzero(parent == own)
+    number = own
+    number[lowest] = np.arange(len(lowest), dtype=np.int32)
+    piece = number[parent]
+    one, other = piece[edges.a], piece[edges.b]
+    across = np.flatnonzero(one != other)
+    count, label = label_graph(len(lowest), one[across], other[across])
+    return count, label[piece]
 
 
 def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
