@@ -165,6 +165,6 @@ def _value(value: Any) -> str:
 def _number(value: float | None, digits: int = 2, undefined: str = "undefined") -> str:
     if value is None:
         return undefined
-    text = f"{value:.{digits}g}"
+    text = f"{value + 0.0:.{digits}g}"  # zero has no sign
     # 4670 is shorter than 4.67e+03, and as many digits.
     return f"{float(text):.0f}" if "e+0" in text and abs(value) < _PLAIN else text
