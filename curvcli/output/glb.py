@@ -29,7 +29,8 @@ def write_glb(
     used = points[np.unique(faces)]
     low, high = used.min(axis=0), used.max(axis=0)
     middle, half = low / 2 + high / 2, float((high / 2 - low / 2).max())
-    if half > np.finfo(np.float32).max / 4 or 0 < half < np.finfo(np.float32).tiny * 2**24:
+    largest, smallest = float(np.finfo(np.float32).max), float(np.finfo(np.float32).tiny)
+    if half > largest / 4 or 0 < half < smallest * 2**24:
         raise OutputError(f"glTF keeps float32, which cannot hold a mesh of the size {2 * half:g}; .ply can")
     if np.abs(middle).max() <= 4 * half:
         middle = np.zeros(3)

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from .._version import __version__
 from .legend import Colored, about, mesh_name, sentence, ticks
-from .look import Look
+from .look import Look, arrange
 from .panels import draw_title, legend
-from .sheet import LINE, Box, Item, Sheet, grid
+from .sheet import LINE, Box, Item, Sheet
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -63,7 +63,7 @@ def write_histograms(
     Each vertex weighs the area of its star. Labels have a bar each.
     """
     count = max(1, len(columns))
-    across, down, size = grid(count, look.size, _SINGLE if count == 1 else _PANEL)
+    across, down, size = arrange(count, look.size, _SINGLE if count == 1 else _PANEL)
     sheet = Sheet(size, look.background)
     font = sheet.font(1.3 * size[0] / across, 1.3 * size[1] / down)
     small, margin = max(0.85 * font, 8.0), round(0.8 * font)

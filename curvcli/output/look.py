@@ -14,6 +14,7 @@ from ..errors import MissingExtraError, UsageError
 VIEWS = {"iso": (-45.0, math.degrees(math.asin(1 / math.sqrt(3)))), "front": (-90.0, 0.0), "top": (-90.0, 90.0)}
 FIT = "fit"
 SMALLEST, LARGEST = 200, 8192
+_SMALLEST_PANEL = 180
 _NUMBER = r"[+-]?\d+(?:\.\d*)?"
 
 
@@ -65,14 +66,36 @@ def parse_size(text: str | None) -> tuple[int, int] | None:
     raise UsageError(f"--size {text}: expected WxH with sides of {SMALLEST} to {LARGEST} pixels, as 1200x900")
 
 
-def check_look(look: Look) -> None:
-    """Refuse, before any work, what cannot be drawn: a missing library, an unknown colour or view.
+def check_look(look: Look, panels: int = 1) -> None:
+    """Refuse, before any work, what cannot be drawn: a missing library, an unknown colour or view, too small a size.
 
     Errors: UsageError; MissingExtraError without the libraries that draw.
     """
     require_pictures()
     parse_view(look.view)
     background_rgb(look.background)
+    arrange(max(1, panels), look.size, (4, 3))
+
+
+def arrange(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) -> tuple[int, int, tuple[int, int]]:
+    """Columns and rows for so many panels, and the size of the sheet in pixels.
+
+    Errors: UsageError where the panels would be too small to be read.
+    """
+    if size is None:
+        columns = next(n for n in range(1, count + 1) if n * n * 4 >= count * 3 or n == count)
+        columns = min(columns, 4)
+        rows = -(-count // columns)
+        return columns, rows, (min(columns * panel[0], 8192), min(rows * panel[1], 8192))
+    shape = panel[0] / panel[1]
+    options = [(n, -(-count // n)) for n in range(1, count + 1)]
+    readable = [one for one in options if min(size[0] / one[0], size[1] / one[1]) >= _SMALLEST_PANEL]
+    if not readable:
+        across = math.ceil(math.sqrt(count))
+        enough = f"{across * _SMALLEST_PANEL}x{-(-count // across) * _SMALLEST_PANEL}"
+        raise UsageError(f"--size {size[0]}x{size[1]}: too small for {count} panels; {enough} is enough")
+    columns, rows = max(readable, key=lambda one: min(size[0] / one[0] / shape, size[1] / one[1]))
+    return columns, rows, size
 
 
 def background_rgb(color: str) -> tuple[float, float, float]:

@@ -10,10 +10,10 @@ import numpy as np
 from .._version import __version__
 from .camera import screen
 from .legend import Colored, about, mesh_name, sentence
-from .look import Look
+from .look import Look, arrange
 from .panels import draw_bar, draw_title, legend
 from .render import Lines, render
-from .sheet import LINE, Color, Item, Sheet, grid
+from .sheet import LINE, Color, Item, Sheet
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -34,7 +34,7 @@ def write_picture(
     Errors: MissingExtraError where the system cannot draw.
     """
     count = max(1, len(columns))
-    across, down, size = grid(count, look.size, _PANEL if count == 1 else _SMALL_PANEL)
+    across, down, size = arrange(count, look.size, _PANEL if count == 1 else _SMALL_PANEL)
     sheet = Sheet(size, look.background)
     edge_ink: Color = (0.97, 0.97, 0.97) if sheet.dark else (0.0, 0.0, 0.0)
     page = _Page(sheet, analysis, columns, value_range, across, down, edge_ink)

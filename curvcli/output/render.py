@@ -56,7 +56,7 @@ def render(
     mesh = pv.PolyData.from_regular_faces(positions.astype(np.float32), faces)
     plotter = pv.Plotter(off_screen=True, window_size=[side * finer for side in size], lighting="none", border=False)
     try:
-        plotter.set_background(background)
+        plotter.set_background(_floats(background))
         mesh["rgb"] = np.zeros((len(positions), 3), np.uint8)
         plotter.add_mesh(
             mesh,
@@ -66,7 +66,7 @@ def render(
             diffuse=0.48,
             specular=0.0,
             show_edges=mesh_color is not None,
-            edge_color=mesh_color,
+            edge_color=None if mesh_color is None else _floats(mesh_color),
             line_width=finer * max(0.75, min(size) / 900),
             copy_mesh=False,
         )
@@ -95,7 +95,12 @@ def _add_lines(plotter: Any, pv: Any, positions: NDArray[np.float64], lines: Lin
     records = np.full((len(lines.edges), 3), 2, np.int64)
     records[:, 1:] = ends.reshape(-1, 2)
     wire.lines = records.ravel()
-    plotter.add_mesh(wire, color=lines.color, line_width=lines.width * finer, lighting=False)
+    plotter.add_mesh(wire, color=_floats(lines.color), line_width=lines.width * finer, lighting=False)
+
+
+def _floats(color: Color) -> list[float]:
+    """A colour that is taken for one from 0 to 1, not for bytes."""
+    return [float(part) for part in color]
 
 
 def _light(plotter: Any, pv: Any) -> None:

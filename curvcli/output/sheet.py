@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -12,7 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import UsageError
 from .look import background_rgb
 
 Color = tuple[float, float, float]
@@ -20,7 +18,6 @@ Box = tuple[float, float, float, float]  # left, top, width, height in pixels, f
 
 _FONT = "DejaVu Sans"
 _SMALLEST_FONT, _LARGEST_FONT = 8.0, 26.0
-_SMALLEST_PANEL = 180
 LINE = 1.4  # line height over font size
 
 
@@ -162,33 +159,16 @@ class Sheet:
         """The entry, cut between words, or within a word, where it is too long for a line."""
         text = item.text
         while text and self._needs(Item(text, item.mark), size) > width:
-            fits = next(
-                (n for n in range(len(text) - 1, 1, -1) if self._needs(Item(text[:n], item.mark), size) <= width), 1
-            )
-            space = text.rfind(" ", 1, fits + 1)
-            cut = space if space > 0 else fits
+            less, more = 1, len(text)
+            while less < more - 1:
+                fits = (less + more) // 2
+                if self._needs(Item(text[:fits], item.mark), size) <= width:
+                    less = fits
+                else:
+                    more = fits
+            space = text.rfind(" ", 1, less + 1)
+            cut = space if space > 0 else less
             yield Item(text[:cut].rstrip(), item.mark, item.color)
             text, item = text[cut:].lstrip(), Item("", "", None)
         if text:
             yield Item(text, item.mark, item.color)
-
-
-def grid(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) -> tuple[int, int, tuple[int, int]]:
-    """Columns and rows for so many panels, and the size of the sheet in pixels.
-
-    Errors: UsageError where the panels would be too small to be read.
-    """
-    if size is None:
-        columns = next(n for n in range(1, count + 1) if n * n * 4 >= count * 3 or n == count)
-        columns = min(columns, 4)
-        rows = -(-count // columns)
-        return columns, rows, (min(columns * panel[0], 8192), min(rows * panel[1], 8192))
-    shape = panel[0] / panel[1]
-    options = [(n, -(-count // n)) for n in range(1, count + 1)]
-    readable = [one for one in options if min(size[0] / one[0], size[1] / one[1]) >= _SMALLEST_PANEL]
-    if not readable:
-        across = math.ceil(math.sqrt(count))
-        enough = f"{across * _SMALLEST_PANEL}x{-(-count // across) * _SMALLEST_PANEL}"
-        raise UsageError(f"--size {size[0]}x{size[1]}: too small for {count} panels; {enough} is enough")
-    columns, rows = max(readable, key=lambda one: min(size[0] / one[0] / shape, size[1] / one[1]))
-    return columns, rows, size

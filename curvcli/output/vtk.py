@@ -58,16 +58,17 @@ def write_vtk(
     writer = vtkXMLPolyDataWriter() if suffix == ".vtp" else vtkXMLUnstructuredGridWriter()
     writer.SetInputData(data)
     writer.SetWriteToOutputString(True)
-    # As they are: digits of curvatures hardly compress, and zlib takes longer than all the rest.
+    # Without compression: digits of curvatures hardly shrink, and zlib takes longer than all the rest.
+    writer.SetCompressorTypeToNone()
     writer.SetHeaderTypeToUInt64()
     writer.SetDataModeToAppended()
-    writer.EncodeAppendedDataOff()
-    writer.SetCompressorTypeToNone()
+    # As text (base64) where meshio reads the format too, which mistakes one raw array for another.
+    writer.SetEncodeAppendedData(suffix == ".vtu")
     writer.Write()
-    output: Any = writer.GetOutputString()  # bytes, as the data are
-    content = memoryview(output)
-    # After the line with the root; offsets in the file count from the data, not from here.
-    start = output.index(b"\n") + 1
+    output: Any = writer.GetOutputString()  # bytes if the data are
+    content = memoryview(output if isinstance(output, bytes) else output.encode("ascii"))
+    # After the first line, of the root or above it; offsets in the file count from the data, not from here.
+    start = bytes(content[:1000]).index(b"\n") + 1
     stream.write(content[:start])
     stream.write(_comment(told))
     stream.write(content[start:])

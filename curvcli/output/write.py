@@ -143,8 +143,9 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     """
     parse_view(appearance.look.view)
     suffixes = set(suffixes)
-    if suffixes & {".png", ".hist.png"}:
-        check_look(appearance.look)
+    pictures = suffixes & {".png", ".hist.png"}
+    if pictures:
+        check_look(appearance.look, max(len(_panels(appearance, chosen, suffix)) for suffix in pictures))
     if suffixes & {".vtp", ".vtu"}:
         require_vtk()
     if ".html" in suffixes:
@@ -205,21 +206,27 @@ def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale]
     return (chosen[0], colored(analysis, chosen[0], appearance).scale) if chosen else None
 
 
+def _panels(appearance: Appearance, chosen: list[str], suffix: str) -> tuple[str, ...]:
+    """The columns that a picture shows: those asked for, else all numbers in histograms and one column elsewhere."""
+    if appearance.color_by:
+        return appearance.color_by
+    if suffix == ".hist.png":
+        return tuple(name for name, q in _columns(chosen).items() if not q.vector and not q.labels)
+    return tuple(name for name in (*_COLOR_BY, "status") if name in chosen)[:1]
+
+
 def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[str]:
     """Draw the surface or the histograms; what is to be said of each column, a line each."""
     from .legend import sentence
 
+    shown = [colored(analysis, name, appearance) for name in _panels(appearance, analysis.chosen, suffix)]
     if suffix == ".hist.png":
         from .histogram import write_histograms
 
-        numbers = [name for name, q in _columns(analysis.chosen).items() if not q.vector and not q.labels]
-        shown = [colored(analysis, name, appearance) for name in appearance.color_by or numbers]
         write_histograms(stream, analysis, shown, appearance.look, appearance.value_range)
     else:
         from .picture import write_picture
 
-        names = appearance.color_by or tuple(name for name in (*_COLOR_BY, "status") if name in analysis.chosen)[:1]
-        shown = [colored(analysis, name, appearance) for name in names]
         write_picture(stream, analysis, shown, appearance.look, appearance.value_range)
     return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in shown]
 

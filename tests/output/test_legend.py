@@ -1,0 +1,86 @@
+"""The words of a legend: numbers, ranges and what they cut, ticks."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from curvcli.output.colors import categorize, colorize
+from curvcli.output.histogram import distribution
+from curvcli.output.legend import number, range_text, ticks
+
+FINITE = st.floats(-1e300, 1e300, allow_subnormal=False)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.5, "0.5"), (-0.25, "−0.25"), (123456.0, "1.235·10⁵"), (-1e-9, "−1·10⁻⁹"), (0.0, "0")]
+)
+def test_numbers(value: float, text: str) -> None:
+    assert number(value) == text
+
+
+@pytest.mark.parametrize(
+    ("values", "options", "text"),
+    [
+        (range(101), {}, "2 to 98 (p02 to p98), cuts 2 below and 2 above"),
+        (range(-50, 51), {"signed": True}, "−49 to 49 (p98 of |values|), cuts 1 below and 1 above"),
+        (range(101), {"value_range": "p90"}, "5 to 95 (p05 to p95), cuts 5 below and 5 above"),
+        (range(101), {"value_range": "-1:50"}, "−1 to 50 (range as asked), cuts 50 above"),
+        (range(3), {"value_range": "0:2"}, "0 to 2 (range as asked), cuts nothing"),
+        ([7, 7], {}, "7 wherever defined"),
+        ([np.nan], {}, "undefined at every vertex"),
+        ([1.0, 1.00001], {"value_range": "p100"}, "1 to 1.00001 (p00 to p100), cuts nothing"),
+    ],
+)
+def test_the_range_and_what_it_cuts(values: object, options: dict[str, object], text: str) -> None:
+    scale = colorize(np.array(values, np.float64), **options)  # type: ignore[arg-type]
+    assert range_text(scale, options.get("value_range")) == text  # type: ignore[arg-type]
+
+
+@given(FINITE, FINITE, st.integers(1, 12))
+def test_ticks_lie_within_the_range_in_order_and_read_differently(one: float, two: float, room: int) -> None:
+    low, high = sorted([one, two])
+    places, labels, power = ticks(low, high, room)
+    assert 1 <= len(places) == len(labels) <= room + 2
+    margin = 1e-9 * max(abs(low), abs(high))
+    assert all(low - margin <= place <= high + margin for place in places)
+    assert all(a < b for a, b in itertools.pairwise(places))
+    assert len(set(labels)) == len(labels)
+    assert power % 3 == 0
+
+
+def test_ticks_are_what_their_labels_say() -> None:
+    assert ticks(-1, 1, 4) == ([-1, -0.5, 0, 0.5, 1], ["−1.0", "−0.5", "0.0", "0.5", "1.0"], 0)
+    places, labels, power = ticks(0, 5e-7, 5)
+    assert (labels, power) == (["0", "100", "200", "300", "400", "500"], -9)
+    assert places == pytest.approx([0, 1e-7, 2e-7, 3e-7, 4e-7, 5e-7])
+    assert ticks(1.0, 1.0 + 1e-9, 5)[1] == ["1", "+1·10⁻⁹"]
+
+
+def test_labels_have_colours_of_their_own() -> None:
+    scale = categorize(np.array([0, 0, 2, -1]), ("interior", "boundary", "degenerate"))
+    assert [(one.name, one.count) for one in scale.categories] == [("interior", 2), ("degenerate", 1)]
+    assert scale.nulls == 1
+    assert len({*map(tuple, scale.rgb.tolist())}) == 3
+    assert tuple(scale.rgb[3]) == scale.undefined
+    assert len(categorize(np.arange(40), tuple(map(str, range(40)))).categories) == 40
+
+
+def test_distributions_count_vertices_and_weigh_area() -> None:
+    values, areas = np.array([-5.0, 0, 0.5, 1, 1, 9, np.nan]), np.array([1.0, 1, 2, 3, 1, 2, 50])
+    found = distribution(values, areas, 0.0, 1.0, bins=2)
+    np.testing.assert_array_equal(found.edges, [0, 0.5, 1])
+    np.testing.assert_allclose(found.vertices, np.array([1, 1, 3, 1]) / 6)
+    np.testing.assert_allclose(found.area, np.array([1, 1, 6, 2]) / 10)
+
+
+@given(st.lists(FINITE, min_size=1, max_size=30), FINITE, FINITE)
+def test_every_defined_value_is_in_one_bin(values: list[float], one: float, two: float) -> None:
+    found = distribution(np.array(values), np.ones(len(values)), min(one, two), max(one, two))
+    assert found.vertices.sum() == pytest.approx(1)
+    assert found.vertices[0] == pytest.approx(np.mean(np.array(values) < min(one, two)))
+    assert found.vertices[-1] == pytest.approx(np.mean(np.array(values) > max(one, two)))
