@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _MARKS = {"pass": "[green]pass[/green]", "fail": "[bold red]FAIL[/bold red]", "not_applicable": "[dim]n/a[/dim]"}
 _ORDER = {"fail": 0, "pass": 1, "not_applicable": 2}
 # Least widths of a column of sentences, and of one of names that are folded.
-_DETAIL, _NAME = 24, 14
+_DETAIL, _NAME = 20, 14
 # Whole numbers below are written out.
 _PLAIN = 1e6
 
