@@ -14,6 +14,11 @@ def fitting(console: Console, variants: Iterable[Table]) -> Table:
     """The first table that fits the console without a cell cut off, else the last, whose cells are folded."""
     table, boundless = None, console.options.update(max_width=10**6)
     for table in variants:
+        for column in table.columns:
+            if column.no_wrap:
+                # Cells of several words would else be measured by the longest of them.
+                cells = (column.header, *column.cells)
+                column.min_width = max(Measurement.get(console, boundless, cell).maximum for cell in cells)
         if Measurement.get(console, boundless, table).minimum <= console.width:
             return table
     if table is None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any, TypedDict
 
-from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
@@ -14,8 +14,11 @@ from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
 from ..errors import UsageError
 from ..pipeline import in_order, load_passes, resolve
 from .advice import plain
+from .fitting import fitting, plain_table
 
 _PLAIN = str.maketrans("", "", "*")
+# The least width of a column of formulas.
+_FORMULA = 24
 
 
 class Facts(TypedDict):
@@ -100,22 +103,27 @@ def as_data(name: str | None) -> Any:
 
 def listing() -> None:
     """Print a table of all quantities."""
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in ("name", "symbol", "on", "kind", "unit"):
-        table.add_column(header, no_wrap=True)
-    table.add_column("formula", overflow="fold")
-    for quantity in public():
-        shown = facts(quantity)
-        marked = f"{quantity.name}{'' if shown['preset'] == 'core' else ' +'}"
-        cells = (marked, shown["symbol"], quantity.on, quantity.kind, shown["unit"], shown["formula"])
-        table.add_row(*(cell.replace("[", r"\[") for cell in cells))
+    headers = ("name", "symbol", "on", "kind", "unit")
+    tables = [_listed(headers[:count]) for count in (5, 4, 3, 2)]
     console = Console(highlight=False, soft_wrap=False)
-    console.print(table)
+    console.print(fitting(console, tables))
     console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]\n")
     console.print(escape(plain()), soft_wrap=True, end="")
 
 
 def describe(name: str) -> None:
+def _listed(headers: Sequence[str]) -> Table:
+    """All quantities with some of their facts and their formulas, which are folded."""
+    table = plain_table(*headers)
+    table.add_column("formula", overflow="fold", min_width=_FORMULA)
+    for quantity in public():
+        shown: dict[str, Any] = {**facts(quantity)}
+        marked = f"{quantity.name}{'' if shown['preset'] == 'core' else ' +'}"
+        cells = [marked, *(shown[header] for header in headers[1:]), shown["formula"]]
+        table.add_row(*(cell.replace("[", r"\[") for cell in cells))
+    return table
+
+
     """Print everything about one quantity."""
     shown: dict[str, Any] = {**facts(find(name))}
     table = Table(box=None, show_header=False, pad_edge=False)
