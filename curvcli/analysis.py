@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -15,6 +14,7 @@ from . import findings
 from .checks import Check, rules
 from .checks.listing import known_checks, summarised
 from .columns import Columns
+from .conventions import Conventions
 from .declare import AT_SCALE, CELL_AREAS, passes
 from .errors import Notice, UsageError
 from .groups import Groups
@@ -38,21 +38,6 @@ LISTED_GROUPS = 100
 
 # What the report's statistics and the default check need whatever is asked for.
 _ALWAYS = ("status", "degree", "star_area", "star_vector", "face_area", "degenerate_face", "K", "kappa_g")
-
-
-@dataclass(frozen=True)
-class Conventions:
-    """The choices that change numbers or their names; every output states them."""
-
-    mean: str = "sum"
-    area: str = "barycentric"
-    orient: str = "file"
-    weld: str = "none"
-    unit: str | None = None
-    regions: str | None = None
-    scale: str | None = None
-    normals: str | None = None
-    noise: str | None = None
 
 
 class Analysis:

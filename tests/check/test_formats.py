@@ -16,9 +16,10 @@ import junitparser
 import numpy as np
 import pytest
 
-from curvcli.analysis import Analysis, Conventions
+from curvcli.analysis import Analysis
 from curvcli.checks import Check
 from curvcli.checks.base import rules
+from curvcli.conventions import Conventions
 from curvcli.gate import _gap, judge, plan
 from curvcli.report.check import CheckReport, failed_input, schema, sentence, write_json
 from curvcli.report.check_text import write_text
