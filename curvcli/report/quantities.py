@@ -111,7 +111,6 @@ def listing() -> None:
     console.print(escape(plain()), soft_wrap=True, end="")
 
 
-def describe(name: str) -> None:
 def _listed(headers: Sequence[str]) -> Table:
     """All quantities with some of their facts and their formulas, which are folded."""
     table = plain_table(*headers)
@@ -124,6 +123,7 @@ def _listed(headers: Sequence[str]) -> Table:
     return table
 
 
+def describe(name: str) -> None:
     """Print everything about one quantity."""
     shown: dict[str, Any] = {**facts(find(name))}
     table = Table(box=None, show_header=False, pad_edge=False)
