@@ -41,7 +41,7 @@ def precision(surface: Surface) -> Precision:
     elif places is not None:
         step, reason = 10.0**-places, _written(places)
     else:
-        step, reason = float(np.spacing(largest)), "float64"
+        step, reason = math.ulp(largest), "float64"
     return Precision(step * _UNIFORM, reason)
 
 

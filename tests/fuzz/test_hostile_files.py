@@ -34,7 +34,7 @@ def test_twice_the_file_is_twice_the_work(tmp_path: Path, name: str) -> None:
     """Counted in calls of Python functions while the file is read, not in seconds."""
     file = FILES[name]
     calls = []
-    for n in (file.n // 16, file.n // 8):
+    for n in (file.n // 8, file.n // 4):
         path = tmp_path / f"mesh.{file.suffix}"
         path.write_bytes(file.make(n))
         count = 0
