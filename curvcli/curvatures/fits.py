@@ -125,7 +125,7 @@ def _curvatures(given: Moments, jets: Jets) -> tuple[Floats, Floats]:
     a, b, d = -jets.hessian / np.sqrt(1 + p * p + q * q)
     first = np.sqrt(1 + p * p)
     skew = p * q / first
-    second = np.sqrt(1 + q * q - skew * skew)
+    second = np.sqrt(1 + p * p + q * q) / first  # √(1 + q² − skew²) without its cancellation
     a, b = a / (first * first), b / first
     b = (b - skew * a) / second
     # d − 2 skew (mixed) + skew² a with the mixed entry already orthonormal.
