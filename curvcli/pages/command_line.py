@@ -19,7 +19,7 @@ set in a file: see [formats](formats.md#configuration). What the exit codes mean
 
 def page() -> str:
     """The help of every command, in Markdown."""
-    root = click.Context(cli, info_name="curvcli", terminal_width=_WIDTH, max_content_width=_WIDTH)
+    root = click.Context(cli, info_name="curvcli", terminal_width=_WIDTH, help_option_names=["-h", "--help"])
     parts = [_INTRODUCTION, _block("## `curvcli`", cli.get_help(root))]
     for name in COMMANDS:
         command = cli.get_command(root, name)
