@@ -205,7 +205,7 @@ class Analysis:
         return build(self)
 
     def write(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
-        """Write the vertex table, a coloured mesh or the report, as the suffix says; whole or not at all."""
+        """Write the vertex table, a coloured mesh, a picture or the report, as the suffix says; whole or not at all."""
         from .output.write import write_outputs
 
         write_outputs(self, [str(path)], force=force)

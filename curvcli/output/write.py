@@ -18,7 +18,7 @@ from ..memory import require_polars
 from ..tables import TABLES, Table, vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import Format, format_of
-from .look import Look, check_look, parse_view, require_vtk
+from .look import Look, check_look, parse_view, require_pictures, require_vtk
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -219,6 +219,7 @@ def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance
     """Draw the surface or the histograms; what is to be said of each column, a line each."""
     from .legend import sentence
 
+    require_pictures()
     shown = [colored(analysis, name, appearance) for name in _panels(appearance, analysis.chosen, suffix)]
     if suffix == ".hist.png":
         from .histogram import write_histograms
@@ -248,6 +249,8 @@ def _write_page(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: A
 def _write_mesh(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[Notice]:
     from .meshes import beside_input, write_mesh
 
+    if suffix in (".vtp", ".vtu"):
+        require_vtk()
     surface, file = analysis.surface, analysis.surface.file
     painted = colors(analysis, appearance)
     full = suffix in (".ply", ".vtp", ".vtu")
