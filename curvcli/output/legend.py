@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..declare import CELL_AREA, Quantity
 from ..pipeline import schedule
+from ..plurals import counted
 from .colors import ColorScale, parse_range
 
 if TYPE_CHECKING:
@@ -100,7 +101,8 @@ def mesh_name(analysis: Analysis) -> str:
 def about(analysis: Analysis, columns: Sequence[Colored]) -> list[str]:
     """The mesh, and the conventions that the columns shown depend on."""
     surface = analysis.surface
-    shape = f"{mesh_name(analysis)}: {int(surface.referenced.sum()):,} vertices, {surface.n_faces:,} faces"
+    vertices = counted(int(surface.referenced.sum()), "vertex", "vertices")
+    shape = f"{mesh_name(analysis)}: {vertices}, {counted(surface.n_faces, 'face')}"
     return [shape, *conventions(analysis, [one.quantity for one in columns])]
 
 

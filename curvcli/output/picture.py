@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from .._version import __version__
+from ..plurals import counted
 from .camera import screen
 from .legend import Colored, about, mesh_name, sentence
 from .look import Look, arrange
@@ -123,11 +124,7 @@ class _Page:
         items = []
         boundary, crowded = (int(mask.sum()) for mask in (surface.boundary_edges, surface.nonmanifold_edges))
         if boundary:
-            items.append(Item(_counted(boundary, "boundary edge"), "line", edge_ink))
+            items.append(Item(counted(boundary, "boundary edge"), "line", edge_ink))
         if crowded:
-            items.append(Item(f"{_counted(crowded, 'edge')} of more than two faces", "line", _NONMANIFOLD))
+            items.append(Item(f"{counted(crowded, 'edge')} of more than two faces", "line", _NONMANIFOLD))
         return [*items, *map(Item, about(analysis, self.columns))]
-
-
-def _counted(count: int, word: str) -> str:
-    return f"{count:,} {word}" + ("" if count == 1 else "s")
