@@ -1,0 +1,1 @@
+"""Errors of estimates over sizes, triangulations and noise, beside peers; `python -m benchmarks.accuracy`."""
