@@ -7,10 +7,10 @@ from pathlib import Path
 
 import click
 
-from . import compute, end_to_end, quantities, startup
+from . import compute, end_to_end, files, quantities, startup
 from .meshes import Mesh, Order
 
-TABLES = ("startup", "compute", "end-to-end", "passes", "growth")
+TABLES = ("startup", "compute", "files", "end-to-end", "passes", "growth")
 
 
 @click.command()
@@ -23,7 +23,11 @@ TABLES = ("startup", "compute", "end-to-end", "passes", "growth")
 @click.option("--size", "sizes", type=click.IntRange(100), multiple=True, help="Vertices; repeatable.")
 @click.option("--shape", type=click.Choice(["sphere", "torus"]), default="sphere", show_default=True)
 @click.option(
-    "--order", "orders", type=click.Choice(["regular", "random"]), multiple=True, help="Order of the vertices."
+    "--order",
+    "orders",
+    type=click.Choice(["regular", "morton", "random"]),
+    multiple=True,
+    help="Order of the vertices.",
 )
 def main(
     tables: tuple[str, ...],
@@ -36,8 +40,8 @@ def main(
 ) -> None:
     """Measure curvcli beside its peers, in one run, and print medians and ratios.
 
-    TABLE: startup, compute, end-to-end, passes, growth; all of them if none is named. Peers that are not installed are
-    named and left out: pip install '.[bench]'.
+    TABLE: startup, compute, files, end-to-end, passes, growth; all of them if none is named. Peers that are not
+    installed are named and left out: pip install '.[bench]'.
     """
     chosen, rounds = tables or TABLES, repeats or (3 if quick else 5)
     with tempfile.TemporaryDirectory() as temporary:
@@ -58,6 +62,9 @@ def main(
         if "compute" in chosen:
             for one in of_sizes((100_000,), (100_000, 1_000_000)):
                 compute.tables(one, small, rounds, quick)
+        if "files" in chosen:
+            for one in of_sizes((100_000,), (100_000, 1_000_000)):
+                files.tables(one, small, rounds)
         if "end-to-end" in chosen:
             for one in of_sizes((100_000,), (10_000, 100_000, 1_000_000)):
                 end_to_end.tables(one, rounds)

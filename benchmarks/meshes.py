@@ -14,13 +14,16 @@ from curvcli.output.stl import write_stl
 from curvcli.samples import get
 
 Shape = Literal["sphere", "torus"]
-Order = Literal["regular", "random"]
+Order = Literal["regular", "morton", "random"]
 SUFFIXES = (".npz", ".ply", ".obj", ".stl")
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """A mesh in the cache folder, one file per format: `regular` or `random` order of its vertices."""
+    """A mesh in the cache folder, one file per format. order: of its vertices and faces.
+
+    `regular` as the shape is made, row by row; `morton` along a space-filling curve, as scanners and octrees leave it;
+    `random` as nothing would have it."""
 
     folder: Path
     shape: Shape
@@ -59,12 +62,25 @@ def make(shape: Shape, size: int, order: Order) -> tuple[NDArray[np.float64], ND
         shaken = np.random.default_rng(0).normal(scale=0.07 * edge, size=sample.points.shape)
         points = sample.points * (1 + 0.1 * np.sin(5 * x) * np.cos(3 * y) + 0.05 * np.sin(7 * z))[:, None] + shaken
     faces = sample.faces.astype(np.int64)
-    if order == "random":
-        place = np.random.default_rng(1).permutation(len(points))
-        moved = np.empty_like(points)
-        moved[place] = points
-        points, faces = moved, place[faces]
+    if order != "regular":
+        keys = morton(points) if order == "morton" else np.random.default_rng(1).permutation(len(points))
+        first = np.argsort(keys, kind="stable")
+        place = np.empty(len(points), np.int64)
+        place[first] = np.arange(len(points))
+        points, faces = points[first], place[faces]
+        faces = faces[np.argsort(faces.min(axis=1)) if order == "morton" else slice(None)]
     return np.ascontiguousarray(points, np.float32).astype(np.float64), np.ascontiguousarray(faces)
+
+
+def morton(points: NDArray[np.float64]) -> NDArray[np.int64]:
+    """(V,) the bits of the three coordinates, 20 of each, one after the other: near in space is near in this order."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    cells = ((points - low) / (high - low).max() * (2**20 - 1)).astype(np.int64)
+    keys = np.zeros(len(points), np.int64)
+    for bit in range(20):
+        for axis in range(3):
+            keys |= (cells[:, axis] >> bit & 1) << (3 * bit + axis)
+    return keys
 
 
 def _write_npz(path: Path, points: NDArray[Any], faces: NDArray[Any]) -> None:
