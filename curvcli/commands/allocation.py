@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-_M_TRIM_THRESHOLD, _M_MMAP_MAX = -1, -4  # of glibc's mallopt
+_M_TRIM_THRESHOLD, _M_MMAP_MAX, _M_ARENA_MAX = -1, -4, -8  # of glibc's mallopt
 
 
 def keep_memory() -> None:
@@ -25,3 +25,4 @@ def keep_memory() -> None:
         return  # a C library of another kind
     mallopt(_M_MMAP_MAX, 0)
     mallopt(_M_TRIM_THRESHOLD, -1)
+    mallopt(_M_ARENA_MAX, 1)  # the arenas of other threads give back what they let go
