@@ -170,7 +170,6 @@ class Run:
         from ..analysis import analyze
         from ..loading.surfaces import load
         from ..output.write import write_into
-        from ..report.build import model
         from ..report.words import shell_quoted
         from .progress import phase
 
@@ -185,6 +184,8 @@ class Run:
         def check() -> None:
             if not self.somebody_asks(paths):
                 return
+            from ..report.build import model
+
             with phase("", quiet=True) as checking:
                 _ = analysis.checks
             analysis.timings["check"] = checking.seconds

@@ -7,7 +7,6 @@ from typing import Any
 import msgspec
 
 from ..declare import passes
-from .quantities import public
 from .statistics import ColumnStatistics
 
 Value = float | list[float | None] | None
@@ -141,6 +140,8 @@ def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
 
 def schema() -> bytes:
     """The JSON Schema of the report."""
+    from .quantities import public
+
     found = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
     properties = found["$defs"]["Report"]["properties"]
     quantities = [quantity for quantity in public() if quantity.on == "vertex" and quantity.kind != "label"]
