@@ -13,7 +13,7 @@ from .tables import Column
 
 Polygons = tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]
 
-_ROWS_AT_A_TIME = 65536
+_ROWS_AT_A_TIME = 16384  # a block of them stays in the cache until it is written
 _NAMES_TOLD = 256
 _SCALARS = {
     "i1": "char",
