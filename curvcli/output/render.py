@@ -51,7 +51,7 @@ def render(
     """
     import pyvista as pv
 
-    _require_opengl()
+    require_opengl()
     finer = _FINER if max(size) * _FINER <= _LARGEST_BUFFER else 1
     mesh = pv.PolyData.from_regular_faces(positions.astype(np.float32), faces)
     plotter = pv.Plotter(off_screen=True, window_size=[side * finer for side in size], lighting="none", border=False)
@@ -128,8 +128,12 @@ def _coarser(pixels: Pixels, finer: int) -> Pixels:
     return means
 
 
-def _require_opengl() -> None:
-    """Refuse where VTK would draw with a library that is not there, and be killed by the system for it."""
+def require_opengl() -> None:
+    """Refuse where VTK would draw with a library that is not there, and be killed by the system for it.
+
+    Errors: MissingExtraError.
+    """
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - without it a window is of no kind
     from vtkmodules.vtkCommonCore import vtkLogger, vtkObject
     from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
@@ -138,8 +142,8 @@ def _require_opengl() -> None:
     vtkObject.GlobalWarningDisplayOff()
     if "OSOpenGL" not in vtkRenderWindow().GetClassName() or any(map(_loads, _MESA)):
         return
-    hint = ": on Debian and Ubuntu `apt install libegl1`" if sys.platform.startswith("linux") else ""
-    raise MissingExtraError(f"pictures need OpenGL, and this system has none that draws without a display{hint}")
+    hint = "; `apt install libegl1` brings it to Debian and Ubuntu" if sys.platform.startswith("linux") else ""
+    raise MissingExtraError(f"pictures need OpenGL that draws without a display, which this system lacks{hint}")
 
 
 def _loads(library: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes.util
 import importlib.util
 import subprocess
 import sys
@@ -10,13 +11,17 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import CUBE, DISK, Ended, environment
+from tests.cli.program import CUBE, DISK, Ended, curvcli, environment
+from tests.output.images import opengl
+
+__all__ = ["opengl"]
 
 Run = Callable[..., Ended]
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
+@pytest.mark.usefixtures("opengl")
 def test_the_range_is_told_beside_the_picture(within: Run, tmp_path: Path) -> None:
     ended = within("analyze", DISK, "-o", "x.png", "-o", "x.hist.png", "--size", "300x240", "--color-by", "h")
     assert ended.code == 0
@@ -65,6 +70,18 @@ def test_without_the_extra_the_way_to_install_it_is_told(
     assert not (tmp_path / name).exists()
 
 
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere OpenGL is part of the system")
+def test_without_opengl_the_reason_is_told_and_nothing_crashes(tmp_path: Path) -> None:
+    """VTK is told to draw with OSMesa, which few systems have; where it is missing VTK itself would crash."""
+    has_mesa = ctypes.util.find_library("OSMesa") is not None
+    ended = curvcli(
+        "analyze", CUBE, "-q", "-o", "x.png", folder=tmp_path, VTK_DEFAULT_OPENGL_WINDOW="vtkOSOpenGLRenderWindow"
+    )
+    assert ended.code == (0 if has_mesa else 2), ended
+    assert has_mesa or ended.complaint.startswith("pictures need OpenGL that draws without a display")
+    assert [*tmp_path.iterdir()] == ([tmp_path / "x.png"] if has_mesa else [])
+
+
 def test_nothing_that_draws_is_imported_for_a_table(tmp_path: Path) -> None:
     program = (
         "import sys; sys.argv = ['curvcli', 'analyze', sys.argv[1], '-q', '-o', 'x.ply', '-o', 'x.csv']\n"
@@ -78,7 +95,10 @@ def test_nothing_that_draws_is_imported_for_a_table(tmp_path: Path) -> None:
     assert done.stdout == "\n"
 
 
+@pytest.mark.usefixtures("opengl")
 def test_a_batch_draws_too(within: Run, tmp_path: Path) -> None:
-    ended = within("batch", CUBE, "-o", "out", "--save", "png,hist.png", "--size", "240x200", "--color-by", "h", "-q", "-j", "1")
+    ended = within(
+        "batch", CUBE, "-o", "out", "--save", "png,hist.png", "--size", "240x200", "--color-by", "h", "-q", "-j", "1"
+    )
     assert ended.code == 0
     assert [path.name for path in sorted((tmp_path / "out").glob("*.png"))] == ["cube.obj.hist.png", "cube.obj.png"]

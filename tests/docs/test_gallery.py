@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 from tests.docs.pages import ROOT, text
-from tests.output.images import decoded, difference_hash
+from tests.output.images import decoded, difference_hash, opengl
+
+__all__ = ["opengl"]
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +44,7 @@ def test_the_page_shows_the_commands(gallery: ModuleType) -> None:
             assert f"(gallery/{name})" in page
 
 
+@pytest.mark.usefixtures("opengl")
 @pytest.mark.parametrize("stem", ["torus", "book"])
 def test_the_commands_still_make_the_picture(gallery: ModuleType, tmp_path: Path, stem: str) -> None:
     (entry,) = [entry for entry in gallery.ENTRIES if entry.stem == stem]

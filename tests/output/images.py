@@ -6,11 +6,23 @@ import io
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
+from curvcli.errors import MissingExtraError
+from curvcli.output.render import require_opengl
 from curvcli.output.sheet import Sheet
 
 Pixels = NDArray[np.uint8]
+
+
+@pytest.fixture(scope="module")
+def opengl() -> None:
+    """Skips what cannot be drawn on this machine."""
+    try:
+        require_opengl()
+    except MissingExtraError as error:
+        pytest.skip(str(error))
 
 
 def decoded(png: bytes) -> tuple[Pixels, dict[str, str]]:

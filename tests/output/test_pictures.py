@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import io
 from functools import cache
 from typing import Any
@@ -12,8 +11,6 @@ import pytest
 
 import curvcli
 from curvcli.analysis import Analysis
-from curvcli.errors import MissingExtraError
-from curvcli.output import render as rendering
 from curvcli.output.camera import screen
 from curvcli.output.colors import colorize
 from curvcli.output.look import Look
@@ -21,7 +18,10 @@ from curvcli.output.render import Lines, render
 from curvcli.output.sheet import Sheet
 from curvcli.output.write import Appearance, write_into
 from tests.meshes import Mesh, of_sample
-from tests.output.images import Pixels, collisions, decoded, difference_hash, near
+from tests.output.images import Pixels, collisions, decoded, difference_hash, near, opengl
+
+__all__ = ["opengl"]
+pytestmark = pytest.mark.usefixtures("opengl")
 
 WHITE, BLACK, MAGENTA, GREY = (255, 255, 255), (0, 0, 0), (230, 0, 120), (128, 128, 128)
 
@@ -115,20 +115,6 @@ def test_lines_lie_on_the_surface_and_are_hidden_behind_it() -> None:
         shown.append(int(((pixels[..., 2] > 200) & (pixels[..., 0] < 120)).sum()))
     assert shown[0] > 1000
     assert shown[1] < 0.03 * shown[0]  # at the silhouette
-
-
-def test_without_opengl_the_reason_is_told_instead_of_a_crash(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Nothing:
-        def GetClassName(self) -> str:
-            return "vtkOSOpenGLRenderWindow"
-
-    def missing(name: str) -> None:
-        raise OSError(name)
-
-    monkeypatch.setattr("vtkmodules.vtkRenderingCore.vtkRenderWindow", Nothing)
-    monkeypatch.setattr(ctypes, "CDLL", missing)
-    with pytest.raises(MissingExtraError, match="pictures need OpenGL"):
-        rendering._require_opengl()
 
 
 # ---------------------------------------------------------------------------- the whole picture
