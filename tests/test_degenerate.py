@@ -16,8 +16,9 @@ from tests.reference import COLUMNS, column, stars
 
 EPSILON = 2.0**-52
 
-# Everything made of the mean curvature; it and only it is undefined at the corners of a face without area.
-FOLLOWS_FROM_H = {q.name for q in PUBLIC.values() if q.on == "vertex" and q.mean_degree} | {
+# Everything made of the mean curvature of the star; it and only it is undefined at the corners of a face without area.
+_OF_THE_STAR = [q for q in PUBLIC.values() if q.on == "vertex" and not passes.depends_on_scale(q.name)]
+FOLLOWS_FROM_H = {q.name for q in _OF_THE_STAR if q.mean_degree} | {
     *("kappa_1", "kappa_2", "shape_index", "curvedness", "willmore_conformal", "area_gradient")
 }
 STAYS = {"K", "A", "A_vec", "K_density", "K_comb", "degree", "K_plus", "K_minus", "K_abs"}
