@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import shlex
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,8 +11,8 @@ from curvcli.batch.model import Item, Limits, Settings
 from curvcli.batch.plan import saves
 from curvcli.batch.run import run
 from curvcli.errors import MissingExtraError
-from curvcli.output.html import engine, page
-from tests.cli.program import CUBE, DISK, ROOT, curvcli, wrote
+from curvcli.output.html import engine
+from tests.cli.program import CUBE, DISK, curvcli, wrote
 from tests.html.parsed import Page
 
 
@@ -38,20 +36,6 @@ def test_a_page_on_stdout(tmp_path: Path) -> None:
     ended = curvcli("analyze", CUBE, "-o", "-", "--format", "html")
     assert (ended.code, ended.err) == (0, "")
     assert Page(ended.out.encode()).root.one("h1").text == CUBE
-
-
-def test_without_the_extra_it_is_told_before_any_work(tmp_path: Path) -> None:
-    (tmp_path / "sitecustomize.py").write_text("import sys\nsys.modules['jinja2'] = None\n")
-    paths = os.pathsep.join([str(tmp_path), str(ROOT)])
-    ended = curvcli("analyze", "no-such-mesh.obj", "-o", tmp_path / "x.html", PYTHONPATH=paths)
-    assert ended.code == 2
-    assert "`pip install 'curvcli[page]'`" in ended.complaint
-
-
-def test_a_missing_template_engine(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "jinja2", None)
-    with pytest.raises(MissingExtraError, match="curvcli\\[page\\]"):
-        page.require()
 
 
 @pytest.mark.parametrize("content", [b"", b"<html></html>"])

@@ -11,7 +11,6 @@ import msgspec
 import numpy as np
 
 from ...checks.base import rules
-from ...errors import MissingExtraError
 from ...report.build import model
 from ...report.check import printable
 from ...report.proof import holds, proof
@@ -36,12 +35,9 @@ MOST_VERTICES = 200_000
 def require() -> None:
     """Refuse before any work what cannot be written.
 
-    Errors: MissingExtraError.
+    Errors: MissingExtraError where trimesh has no viewer.
     """
-    try:
-        import jinja2  # noqa: F401
-    except ImportError:
-        raise MissingExtraError("-o .html: needs Jinja; `pip install 'curvcli[page]'`") from None
+    engine()
 
 
 def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], command: str | None) -> bytes:
@@ -50,7 +46,6 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
 
     Errors: MissingExtraError.
     """
-    require()
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
