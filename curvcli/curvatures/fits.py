@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from ..blocks import Floats, dot
 from ..declare import Column, Quantity, VectorColumn, curvature_pass
 from ..settings import Scale
 from ..surface import Surface
+from ..threads import for_each
 from .jets import QUADRATIC, Jets, fit
 from .moments import Moments, moments
 from .star import null_where
@@ -105,9 +107,12 @@ _UMBILIC = 1e-9
 def local_fit(surface: Surface, scale: Scale, star_vector: VectorColumn) -> tuple[Column | VectorColumn, ...]:
     """Curvatures of the polynomial of least squares over the tangent plane of each vertex, at a stated scale."""
     numbers, lines = np.full((5, surface.n_vertices), np.nan), np.full((2, 3, surface.n_vertices), np.nan)
-    for given in moments(surface, scale, star_vector, least=QUADRATIC):
-        jets = fit(given)
-        numbers[:, given.vertex], lines[:, :, given.vertex] = _curvatures(given, jets)
+
+    def work(made: Callable[[], Moments]) -> None:
+        given = made()
+        numbers[:, given.vertex], lines[:, :, given.vertex] = _curvatures(given, fit(given))
+
+    for_each(moments(surface, scale, star_vector, least=QUADRATIC), work)
     without = surface.without_orientation
     gauss, mean, larger, smaller, condition = numbers
     odd = (null_where(without, column) for column in (mean, larger, smaller, lines[0], lines[1]))

@@ -6,8 +6,9 @@ a small matrix product per vertex then makes all sums Σ xⁱ yʲ and Σ z yʲ x
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,8 +62,8 @@ class Moments:
         return sums
 
 
-def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> Iterator[Moments]:
-    """Moments of the neighbourhoods of all manifold vertices with at least so many points and a normal.
+def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> Iterator[Callable[[], Moments]]:
+    """Moments of the neighbourhoods of all manifold vertices with at least so many points and a normal, to be called.
 
     star_vector: (3, V) vector areas of the stars. The normal is that of the vertex and its neighbours together; where
     the surface has no orientation, that of the vertex alone.
@@ -77,7 +78,7 @@ def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> 
         chosen = np.flatnonzero(usable[block] & (size >= least))
         chosen = chosen[np.argsort(size[chosen], kind="stable")]
         for start in range(0, len(chosen), _ROWS):
-            yield _of_rows(surface, frames, rows, block.start, chosen[start : start + _ROWS])
+            yield partial(_of_rows, surface, frames, rows, block.start, chosen[start : start + _ROWS])
 
 
 def _of_rows(surface: Surface, frames: Floats, rows: Pattern, first: int, chosen: NDArray[np.intp]) -> Moments:
