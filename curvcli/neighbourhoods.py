@@ -23,7 +23,7 @@ _ROWS_PER_BLOCK = 1 << 16
 # Entries, counted before repetitions are merged, beyond which a block is halved.
 _LARGEST_BLOCK = 1 << 25
 # A row is given up where one more step meets this many times the vertices that are usual, and at least so many.
-_USUAL, _ALWAYS = 64, 1 << 13
+_USUAL, _ALWAYS = 64, 1 << 10
 
 Pattern = csr_array
 
@@ -65,8 +65,8 @@ def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Patt
 
     Every vertex is in its own neighbourhood; one that no face uses has an empty row. Rings: all vertices reached over
     so many edges. Radius: all vertices at most so far away in space that are connected with it by edges whose ends all
-    are: a sheet that passes near is not mixed in. Columns within a row are in no order. Rows that would have thousands
-    of vertices more than is usual at the scale, next to vertices of huge degree, are left empty.
+    are: a sheet that passes near is not mixed in. Columns within a row are in no order. Rows that would have far
+    more vertices than is usual at the scale, next to vertices of huge degree, are left empty.
     """
     kept = _KEPT.get(surface)
     if kept is not None and kept[0] == scale:
