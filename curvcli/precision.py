@@ -15,6 +15,8 @@ _UNIFORM = 1 / math.sqrt(12)
 # Decimals are looked for in the largest coordinates, down to this part of the largest, and up to so many digits.
 _DECADE, _DIGITS = 0.1, 14
 _SAMPLE = 4096
+# Beyond, the powers of ten that are tried leave the range of doubles.
+_RANGE = 1e-250, 1e250
 
 
 class Precision(NamedTuple):
@@ -56,8 +58,8 @@ def is_single(values: NDArray[np.float64]) -> bool:
 
 
 def decimals(values: NDArray[np.float64], largest: float) -> int | None:
-    """How many digits after the point the large values have; None for as many as doubles hold, or none at all."""
-    if not 0 < largest < math.inf:
+    """How many digits after the point the large values have; None for as many as doubles hold."""
+    if not _RANGE[0] < largest < _RANGE[1]:
         return None
     large = np.abs(values[np.abs(values) >= _DECADE * largest])
     some = large[:: max(len(large) // _SAMPLE, 1)]

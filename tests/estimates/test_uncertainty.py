@@ -104,3 +104,13 @@ def test_the_precision_of_coordinates(values: object, step: float, reason: str) 
     found = precision(Surface(values(points), sample.faces))  # type: ignore[operator]
     assert found.reason == reason
     assert found.deviation == pytest.approx(step / np.sqrt(12), rel=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e-150, 1e150, 1e300])
+def test_meshes_at_the_ends_of_the_range(size: float) -> None:
+    sample = get("irregular_sphere")(size=200)
+    plain = curvcli.analyze((sample.points, sample.faces), ["K_sigma"], noise=1e-3).vertices["K_sigma"]
+    scaled = curvcli.analyze((sample.points * size, sample.faces), ["K_sigma"], noise=1e-3 * size).vertices["K_sigma"]
+    np.testing.assert_allclose(scaled, plain, rtol=1e-9)
+    default = curvcli.analyze((sample.points * size, sample.faces), ["K_sigma"]).vertices["K_sigma"]
+    assert (default < 1e-11).all()
