@@ -92,6 +92,16 @@ def closes(what: list[str], *arguments: str) -> None:
     assert (process.returncode, complaint) == (0, b"")
 
 
+@pytest.mark.parametrize(("name", "code"), [("nothing.obj", 3), ("--nothing", 2)])
+def test_a_full_stderr_changes_no_exit_code(name: str, code: int) -> None:
+    if not os.path.exists("/dev/full"):
+        pytest.skip("there is no /dev/full here")
+    with open("/dev/full", "wb") as full:
+        process = start("analyze", name, stdout=subprocess.PIPE, stderr=full)
+        assert process.communicate(timeout=60) == (b"", None)
+    assert process.returncode == code
+
+
 def test_a_full_device() -> None:
     if not os.path.exists("/dev/full"):
         pytest.skip("there is no /dev/full here")
