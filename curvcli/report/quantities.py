@@ -61,8 +61,9 @@ def find(name: str) -> Quantity:
     """
     known = {column: quantity for quantity in public() for column in (quantity.name, *quantity.columns)}
     if name not in known:
-        near = get_close_matches(name, known, 3, 0.4) or ["`curvcli passes` lists them"]
-        raise UsageError(f"no quantity is called {name!r}; nearest: {', '.join(near)}")
+        near = get_close_matches(name, known, 3, 0.4)
+        way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
+        raise UsageError(f"no quantity is called {name!r}; {way_out}")
     return known[name]
 
 
