@@ -9,8 +9,9 @@ from functools import wraps
 import numpy as np
 from numpy.typing import NDArray
 
+from .blocks import by_corner, face_blocks
 from .groups import Groups
-from .loading.weld import weld_exact
+from .loading.weld import position_keys, weld_exact
 from .surface import Surface
 
 Counts = NDArray[np.int64]
@@ -125,23 +126,25 @@ def _once(find: Callable[[Surface], Found]) -> Callable[[Surface], Found]:
 @_once
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     """Referenced vertices beyond the first at exactly the same position."""
-    index = np.flatnonzero(surface.referenced)
-    xyz = surface.xyz_given[:, index] if len(index) < surface.n_vertices else surface.xyz_given
-    first, _ = weld_exact(xyz)
-    again = np.ones(len(index), bool)
+    suspects = np.flatnonzero(_shared_keys(position_keys(surface.xyz_given)) & surface.referenced)
+    first, _ = weld_exact(surface.xyz_given[:, suspects])
+    again = np.ones(len(suspects), bool)
     again[first] = False
-    return index[again]
+    return suspects[again]
 
 
 @_once
 def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     """Faces beyond the first with the same three corners in any order."""
     key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
-    faces = surface.faces
-    suspects = np.flatnonzero(_shared_keys(key[faces[:, 0]] + key[faces[:, 1]] + key[faces[:, 2]]))
+    keys = np.empty(surface.n_faces, np.uint64)
+    for block in face_blocks(surface.n_faces):
+        a, b, c = by_corner(surface.faces[block])
+        keys[block] = key[a] + key[b] + key[c]
+    suspects = np.flatnonzero(_shared_keys(keys))
     if not len(suspects):
         return suspects
-    corners = np.sort(faces[suspects], axis=1)
+    corners = np.sort(surface.faces[suspects], axis=1)
     order = np.lexsort(corners.T)
     again = (np.diff(corners[order], axis=0) == 0).all(axis=1)
     return np.sort(suspects[order[1:][again]])

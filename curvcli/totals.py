@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON, dot
+from .blocks import EPSILON, cross, dot, face_blocks
 from .census import census, classify
 from .declare import Quantity, passes
 from .groups import Groups
@@ -120,11 +120,12 @@ def competing_normals(surface: Surface, groups: Groups, columns: Mapping[str, An
 
     Both are normals of the surface at p: the one decreases its area fastest, the other increases its volume fastest.
     """
-    H_vec, A_vec = columns["H_vec"], columns["star_vector"]
-    across = np.cross(H_vec, A_vec, axis=0)
-    angle = np.arctan2(np.sqrt(dot(across, across)), np.abs(dot(H_vec, A_vec)))
-    known = surface.interior & (dot(H_vec, H_vec) > 0) & (dot(A_vec, A_vec) > 0)
-    angle = np.where(known, angle, np.nan)
+    angle = np.full(surface.n_vertices, np.nan)
+    for block in face_blocks(surface.n_vertices):
+        H_vec, A_vec = columns["H_vec"][:, block], columns["star_vector"][:, block]
+        across = cross(H_vec, A_vec)
+        known = surface.interior[block] & (dot(H_vec, H_vec) > 0) & (dot(A_vec, A_vec) > 0)
+        np.arctan2(np.sqrt(dot(across, across)), np.abs(dot(H_vec, A_vec)), where=known, out=angle[block])
     with np.errstate(invalid="ignore"):
-        mean = groups.vertices.sum(angle) / groups.vertices.count_true(known)
+        mean = groups.vertices.sum(angle) / groups.vertices.count_true(~np.isnan(angle))
     return {"angle_max": groups.vertices.max(angle), "angle_mean": mean}

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 import numpy as np
 
-from ..blocks import EPSILON, Vector, cross, dot
+from ..blocks import EPSILON, cross, dot
 from ..curvatures.mean import conormals
 from ..declare import Column, VectorColumn
 from ..groups import Groups, Segments
@@ -13,7 +15,7 @@ from ..topology import Index
 from .base import Floats, Outcome, check, exclude_null, rounding
 
 
-def vector_sum(segments: Segments, vectors: Vector) -> Floats:
+def vector_sum(segments: Segments, vectors: Iterable[Column]) -> Floats:
     """(G, 3) sums over each group of vectors given by their components."""
     return np.stack([segments.sum(component) for component in vectors], axis=1)
 
@@ -34,20 +36,37 @@ def _boundary(surface: Surface, groups: Groups) -> tuple[Segments, VectorColumn,
     return boundary_segments(groups, half_edges), midpoint, conormals(surface, half_edges)
 
 
-def offsets(surface: Surface) -> VectorColumn:
-    """(3, V) positions about the base; NaN at vertices that no face uses, which may lie anywhere."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        offset: VectorColumn = surface.xyz - surface.base[:, None]
-    if not surface.referenced.all():
-        offset[:, ~surface.referenced] = np.nan
+def _offset(surface: Surface, axis: int) -> Column:
+    """(V,) a coordinate about the base; a vertex that no face uses may lie anywhere, and its vectors are null."""
+    offset: Column = surface.xyz[axis] - surface.base[axis]
     return offset
 
 
-def moments(surface: Surface, half_perimeters: Column) -> Column:
-    """(V,) the size of the terms of which p × H_p and p · ∇_p area are sums, times the distance from the base."""
-    offset = offsets(surface)
-    size: Column = np.sqrt(dot(offset, offset)) * half_perimeters
-    return size
+def dot_offset(surface: Surface, vectors: VectorColumn) -> Column:
+    """(V,) p · v about the base."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        product: Column = _offset(surface, 0) * vectors[0]
+        for axis in (1, 2):
+            product += _offset(surface, axis) * vectors[axis]
+    return product
+
+
+def _cross_offset(surface: Surface, vectors: VectorColumn) -> Iterator[Column]:
+    """The components (V,) of p × v about the base, one after the other."""
+    for i, j in ((1, 2), (2, 0), (0, 1)):
+        with np.errstate(over="ignore", invalid="ignore"):
+            product = _offset(surface, i) * vectors[j]
+            product -= _offset(surface, j) * vectors[i]
+        yield product
+
+
+def moments(surface: Surface, sizes: Column) -> Column:
+    """(V,) sizes times the distance from the base, a bound for the terms of sums of p · v and p × v."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        square = _offset(surface, 0) ** 2
+        for axis in (1, 2):
+            square += _offset(surface, axis) ** 2
+        return np.asarray(np.sqrt(square) * sizes)
 
 
 @check(
@@ -75,8 +94,7 @@ def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_pe
 def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_perimeters: Column) -> Outcome:
     """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
-    arm = offsets(surface)
-    value = vector_sum(groups.vertices, cross(arm, H_vec))
+    value = vector_sum(groups.vertices, _cross_offset(surface, H_vec))
     expected = vector_sum(segments, cross(midpoint, conormal))
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
     # Taken about the base, where rounding is least, then moved to the origin.
@@ -100,8 +118,7 @@ def position_balance(
 ) -> Outcome:
     """Σ m·η|e| over the boundary = Σ p·H_p + 2 area: scaling changes area by its square; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
-    arm = offsets(surface)
-    value = groups.vertices.sum(dot(arm, H_vec)) + 2 * groups.faces.sum(face_area)
+    value = groups.vertices.sum(dot_offset(surface, H_vec)) + 2 * groups.faces.sum(face_area)
     expected = segments.sum(dot(midpoint, conormal))
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p·H_p + 2 area against Σ m·η|e|")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON, dot
+from ..blocks import EPSILON
 from ..census import census
 from ..declare import Column, VectorColumn
 from ..groups import Groups
 from ..surface import Surface
 from ..totals import volumes
-from .balance import moments, offsets, vector_sum
+from .balance import dot_offset, moments, vector_sum
 from .base import Outcome, check, exclude_null, rounding
 
 
@@ -25,8 +25,7 @@ def area_gradient(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, half_perimeters: Column
 ) -> Outcome:
     """Σ ∇_p area = 0 and Σ p·∇_p area = 2 area: area is invariant under translation and of degree two in scale."""
-    arm = offsets(surface)
-    value = groups.vertices.sum(dot(arm, area_gradient))
+    value = groups.vertices.sum(dot_offset(surface, area_gradient))
     expected = 2 * groups.faces.sum(face_area)
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
     drift = np.sqrt((vector_sum(groups.vertices, area_gradient) ** 2).sum(axis=1))
@@ -51,24 +50,19 @@ def area_gradient(
 @check(
     gap="Σp·A_p − 3 vol",
     applies="closed orientable surfaces whose oriented faces cancel at every edge",
-    bound="(16 + log₂N)ε · (Σ area · distance from the base, over the faces + ε · Σ(Σ half perimeters)² · distance, "
-    "over the stars)",
+    bound="(16 + log₂N)ε · Σ (area of the star + ε · (Σ half perimeters)²) · distance from the base, over the stars",
     failure="A_vec of some vertex or the volume is wrong.",
 )
 def volume(
-    surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, half_perimeters: Column
+    surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Column, half_perimeters: Column
 ) -> Outcome:
     """Σ p·A_p = 3 vol on closed orientable surfaces."""
     counts = census(surface, groups)
-    arm = offsets(surface)
-    distance = np.sqrt(dot(arm, arm))
-    value = groups.vertices.sum(dot(arm, A_vec))
+    value = groups.vertices.sum(dot_offset(surface, A_vec))
     expected = 3 * volumes(surface, groups)
-    a, b, c = (distance.take(corner) for corner in surface.faces.T)
-    far = np.maximum(np.maximum(a, b), c)
     # The area vector of a needle has the error of a product of its edges, to twice the digits.
-    needles = EPSILON * groups.vertices.sum(half_perimeters * moments(surface, half_perimeters))
-    tolerance = rounding(surface, groups.faces.sum(face_area * far) + needles)
+    sizes = 3 * star_area + EPSILON * half_perimeters**2
+    tolerance = rounding(surface, groups.vertices.sum(moments(surface, sizes)))
     outcome = Outcome(value, expected, tolerance, length_exponent=3, detail="Σ p·A_p against three times the volume")
     outcome.exclude(~counts.closed, "the surface is not closed")
     outcome.exclude(~counts.orientable, "the surface has no orientation")

@@ -10,8 +10,8 @@ from ..surface import Surface
 
 
 def null_where(mask: Flags, values: Column) -> Column:
-    """A copy of a column (or a (3, n) vector column) with NaN where the mask holds."""
-    return np.where(mask, np.nan, values)
+    """A column (or a (3, n) vector column) with NaN where the mask holds: a copy, or itself where it does nowhere."""
+    return np.where(mask, np.nan, values) if mask.any() else values
 
 
 def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
@@ -28,7 +28,9 @@ def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
         Quantity("star_vector", public=False, vector=True, length_exponent=2, parity="odd"),
         Quantity("star_gradient", public=False, vector=True, length_exponent=1),
         Quantity("half_perimeters", public=False, length_exponent=1),
-        Quantity("face_area", on="face", public=False, length_exponent=2, total="area"),
+        Quantity(
+            "face_area", on="face", public=False, length_exponent=2, total="area", description="Area of the face."
+        ),
         Quantity("degenerate_face", on="face", kind="flag", public=False),
         Quantity("coincident", kind="flag", public=False),
         Quantity("degenerate", kind="flag", public=False),

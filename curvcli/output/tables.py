@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from threading import Event
 from typing import IO, Any, BinaryIO, TypeAlias, cast
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
+from polars.io.plugins import register_io_source
 
 from ..errors import OutputError, UsageError
 from ..loading.model import Labels
@@ -20,6 +21,8 @@ SHORTEST = "shortest"
 _SEPARATORS = {".csv": ",", ".tsv": "\t"}
 # Rows that polars formats at a time: 4 times faster than its default of 1024, still small beside the table.
 _ROWS_AT_A_TIME = 8192
+# Rows that polars holds at a time, a group of rows in Parquet.
+_ROWS_IN_A_FRAME = 1 << 18
 
 
 def write_table(
@@ -42,19 +45,55 @@ def write_table(
         _write_npz(stream, columns)
         return
     digits = parse_precision(precision)
-    frame = pl.DataFrame([_series(name, column) for name, column in columns.items()])
     relay = _Relay(stream, stop)
     try:
         if suffix == ".parquet":
-            frame.write_parquet(cast("IO[bytes]", relay))
+            _write_parquet(relay, columns)
         else:
-            text = frame if digits is None else frame.with_columns(_rounded(frame, digits))
-            text.write_csv(cast("IO[bytes]", relay), separator=_SEPARATORS[suffix], batch_size=_ROWS_AT_A_TIME)
+            _write_text(relay, columns, _SEPARATORS[suffix], digits)
     except Exception:
         # polars words the failure of a stream in its own way; what the stream raised says more.
         if relay.failure is not None:
             raise relay.failure from None
         raise
+
+
+def _write_text(relay: _Relay, columns: Mapping[str, Column], separator: str, digits: int | None) -> None:
+    for number, frame in enumerate(_frames(columns)):
+        text = frame if digits is None else frame.with_columns(_rounded(frame, digits))
+        text.write_csv(
+            cast("IO[bytes]", relay), separator=separator, include_header=not number, batch_size=_ROWS_AT_A_TIME
+        )
+
+
+def _write_parquet(relay: _Relay, columns: Mapping[str, Column]) -> None:
+    frames = _frames(columns)
+    first = next(frames)
+    if len(first) == _length(columns):
+        first.write_parquet(cast("IO[bytes]", relay))
+        return
+
+    def source(*_: object) -> Iterator[pl.DataFrame]:
+        yield first
+        yield from frames
+
+    lazily = register_io_source(source, schema=first.schema)
+    lazily.sink_parquet(cast("IO[bytes]", relay), row_group_size=_ROWS_IN_A_FRAME)
+
+
+def _length(columns: Mapping[str, Column]) -> int:
+    return max((len(column.codes if isinstance(column, Labels) else column) for column in columns.values()), default=0)
+
+
+def _frames(columns: Mapping[str, Column]) -> Iterator[pl.DataFrame]:
+    """The table in pieces, since polars copies what it is given; at least one, however short."""
+    for start in range(0, max(_length(columns), 1), _ROWS_IN_A_FRAME):
+        rows = slice(start, start + _ROWS_IN_A_FRAME)
+        yield pl.DataFrame([_series(name, _rows(column, rows)) for name, column in columns.items()])
+
+
+def _rows(column: Column, rows: slice) -> Column:
+    return Labels(column.codes[rows], column.names) if isinstance(column, Labels) else column[rows]
 
 
 def parse_precision(precision: str | int) -> int | None:
@@ -94,7 +133,7 @@ class _Relay(io.RawIOBase):
 
 
 def _series(name: str, column: Column) -> pl.Series:
-    """The column for polars without a copy: what is null is told by a mask beside the values."""
+    """The column for polars; what is null is told by a mask beside the values."""
     if isinstance(column, Labels):
         unique = len(set(column.names)) == len(column.names)
         names = pl.Series(name, column.names, dtype=pl.Enum(column.names) if unique else pl.String)

@@ -33,7 +33,7 @@ def statistics(
     quantity: Quantity, values: NDArray[Any], area: NDArray[np.float64], referenced: NDArray[np.bool_], unit: str
 ) -> ColumnStatistics:
     """Statistics of a vertex column. area: (V,) barycentric areas, the weights of `area_mean`."""
-    numbers = values.astype(np.float64)
+    numbers = values.astype(np.float64, copy=False)
     known = referenced & ~np.isnan(numbers)
     nulls = len(numbers) - int(np.count_nonzero(known))
     if nulls:
@@ -44,13 +44,14 @@ def statistics(
     # In units of a power of two near the largest value, so that squares and sums stay within the range of doubles.
     ordered = np.sort(numbers)
     size = np.ldexp(1.0, int(np.frexp(max(abs(ordered[0]), abs(ordered[-1])))[1]) - 1) or 1.0
-    scaled = numbers / size
     low, median, high = (_quantile(ordered, share, size) for share in (0.02, 0.5, 0.98))
+    first, last = float(ordered[0]), float(ordered[-1])
+    scaled = np.divide(numbers, size, out=ordered)
     weight = float(area.sum())
     return ColumnStatistics(
         *described,
-        float(ordered[0]),
-        float(ordered[-1]),
+        first,
+        last,
         float(scaled.mean() * size),
         float((scaled * area).sum() / weight * size) if weight > 0 else None,
         float(scaled.std() * size),
