@@ -42,6 +42,8 @@ SAMPLES = ("irregular_torus", "icosphere", "plane", "catenoid", "developable_str
 INVARIANT = ("topology", "totals.[!HA]*", "totals.H_[ts]*", "steiner", "cmc", "minimal", "checks", "columns.[Khkwcs]*")
 # Quotients of rounding by rounding where the surface is flat.
 FLAT = ("columns.shape_index", "columns.h_normal", "totals.willmore_normal", "columns.willmore_normal")
+# What noise makes of a curvature; by default the noise is that of the digits of the coordinates, which turning changes.
+NOISE = "columns.*_sigma"
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -52,7 +54,7 @@ def test_rounding_alone_moves_no_invariant(name: str) -> None:
     about_x, about_z = np.array([[1, 0, 0], [0, c, s], [0, -s, c]]), np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
     turned = np.array(made.points) @ about_x @ about_z
     a, b = report((made.points, made.faces)), report((turned, made.faces))
-    found, compared = compare_reports(a, b, wanted=selector(INVARIANT, ["columns.*_[xyz]", *FLAT]))
+    found, compared = compare_reports(a, b, wanted=selector(INVARIANT, ["columns.*_[xyz]", NOISE, *FLAT]))
     assert found == []
     assert compared > 60
 

@@ -9,6 +9,7 @@ import stat
 import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from threading import Lock
 from types import TracebackType
 from typing import BinaryIO
 
@@ -45,6 +46,8 @@ class Outputs:
         self._paths = [os.fspath(path) for path in paths]
         self._force = force
         self._targets: dict[str, _Target] = {}
+        # A thread that was never waited for begins no file after the end.
+        self._begin, self._ended = Lock(), False
 
     def __enter__(self) -> Outputs:
         for path in self._paths:
@@ -59,6 +62,8 @@ class Outputs:
             if error is None or isinstance(error, BrokenPipeError):
                 self.commit()
         finally:
+            with self._begin:
+                self._ended = True
             for target in self._targets.values():
                 if target.temporary is not None:
                     with contextlib.suppress(OSError):
@@ -105,9 +110,13 @@ class Outputs:
         self._targets[path] = _Target(path, place)
 
     def _write_beside(self, target: _Target) -> Iterator[BinaryIO]:
-        # Noted before it is made, so that an interruption in between cannot leave it behind.
-        target.temporary = beside(target.place.final)
-        descriptor = os.open(target.temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+        with self._begin:
+            if self._ended:
+                raise InterruptedError("the outputs are closed")
+            # Noted before it is made, so that an interruption in between cannot leave it behind.
+            target.temporary = beside(target.place.final)
+            flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+            descriptor = os.open(target.temporary, flags, 0o666)
         with open(descriptor, "w+b") as stream:
             with contextlib.suppress(OSError):
                 os.chmod(target.temporary, stat.S_IMODE(os.stat(target.place.final).st_mode) & 0o777)
