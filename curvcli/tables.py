@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 Table = dict[str, Any]
 
+# Rows that are handed to polars at a time, which copies them; a group of rows in Parquet.
+ROWS_IN_A_FRAME = 1 << 18
+
 
 def vertex_properties(analysis: Analysis) -> Table:
     """The computed vertex columns, vectors by component; masked or NaN where undefined."""

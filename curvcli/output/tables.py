@@ -14,6 +14,7 @@ from polars.io.plugins import register_io_source
 
 from ..errors import OutputError, UsageError
 from ..loading.model import Labels
+from ..tables import ROWS_IN_A_FRAME
 
 Column: TypeAlias = NDArray[Any] | Labels
 
@@ -21,8 +22,6 @@ SHORTEST = "shortest"
 _SEPARATORS = {".csv": ",", ".tsv": "\t"}
 # Rows that polars formats at a time: 4 times faster than its default of 1024, still small beside the table.
 _ROWS_AT_A_TIME = 8192
-# Rows that polars holds at a time, a group of rows in Parquet.
-_ROWS_IN_A_FRAME = 1 << 18
 
 
 def write_table(
@@ -78,7 +77,7 @@ def _write_parquet(relay: _Relay, columns: Mapping[str, Column]) -> None:
         yield from frames
 
     lazily = register_io_source(source, schema=first.schema)
-    lazily.sink_parquet(cast("IO[bytes]", relay), row_group_size=_ROWS_IN_A_FRAME)
+    lazily.sink_parquet(cast("IO[bytes]", relay), row_group_size=ROWS_IN_A_FRAME)
 
 
 def _length(columns: Mapping[str, Column]) -> int:
@@ -87,8 +86,8 @@ def _length(columns: Mapping[str, Column]) -> int:
 
 def _frames(columns: Mapping[str, Column]) -> Iterator[pl.DataFrame]:
     """The table in pieces, since polars copies what it is given; at least one, however short."""
-    for start in range(0, max(_length(columns), 1), _ROWS_IN_A_FRAME):
-        rows = slice(start, start + _ROWS_IN_A_FRAME)
+    for start in range(0, max(_length(columns), 1), ROWS_IN_A_FRAME):
+        rows = slice(start, start + ROWS_IN_A_FRAME)
         yield pl.DataFrame([_series(name, _rows(column, rows)) for name, column in columns.items()])
 
 

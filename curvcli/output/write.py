@@ -15,7 +15,7 @@ import numpy as np
 from ..declare import Quantity, passes
 from ..errors import Notice, UsageError
 from ..memory import require_polars
-from ..tables import TABLES, Table, vertex_properties, vertex_table
+from ..tables import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import Format, format_of
 from .look import Look, check_look, parse_view, require_pictures, require_vtk
@@ -81,7 +81,7 @@ def write_into(
     tables are written: polars formats them outside the interpreter.
     """
     notices: list[Notice] = []
-    require_polars(64 * analysis.surface.n_vertices)
+    require_polars(64 * min(analysis.surface.n_vertices, ROWS_IN_A_FRAME))
     formats = {path: format_of(path, name=stream_format if path == "-" else None) for path in paths}
     stop = Event()
     with ThreadPoolExecutor(1) as other:
