@@ -59,7 +59,8 @@ class Outputs:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         try:
-            if error is None or isinstance(error, BrokenPipeError):
+            # rich makes a SystemExit of a closed pipe, and nothing else here does.
+            if error is None or isinstance(error, BrokenPipeError | SystemExit):
                 self.commit()
         finally:
             with self._begin:

@@ -78,6 +78,20 @@ def test_head(what: list[str], small: Path) -> None:
     assert head.stdout.count(b"\n") == 1
 
 
+def test_outputs_outlive_a_reader_of_the_summary(small: Path, tmp_path: Path) -> None:
+    """`curvcli analyze MESH -o TABLE | head`: the reader leaves while the summary is told."""
+    read, write = os.pipe()
+    os.close(read)
+    arguments = ["analyze", small, "-o", tmp_path / "k.csv", "-o", tmp_path / "k.json"]
+    process = start(*arguments, stdout=write, stderr=subprocess.PIPE)
+    os.close(write)
+    _, words = process.communicate(timeout=120)
+    assert (process.returncode, words) == (0, b"")
+    assert curvcli("analyze", small, "-q", "-o", tmp_path / "alone.csv") == (0, "", "")
+    assert (tmp_path / "k.csv").read_bytes() == (tmp_path / "alone.csv").read_bytes()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["alone.csv", "k.csv", "k.json"]
+
+
 @pytest.mark.parametrize("force", [[], ["--force"]])
 def test_two_runs_on_one_output(force: list[str], tmp_path: Path) -> None:
     """Both have looked at the output before either writes; then one mesh is given, then the other."""
