@@ -191,8 +191,9 @@ def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> No
 def _tell(batch: Batch, begun: int) -> None:
     """How many meshes ended how, on stdout."""
     from rich import box
-    from rich.console import Console
     from rich.table import Table
+
+    from ..report.console import Console
 
     counts = Counter((row.status, row.exit_code) for row in batch.rows)
     table = Table(box=box.SIMPLE_HEAD)

@@ -59,8 +59,7 @@ class Outputs:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         try:
-            # rich makes a SystemExit of a closed pipe, and nothing else here does.
-            if error is None or isinstance(error, BrokenPipeError | SystemExit):
+            if error is None or isinstance(error, BrokenPipeError):
                 self.commit()
         finally:
             with self._begin:

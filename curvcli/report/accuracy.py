@@ -9,12 +9,12 @@ from typing import Any
 import msgspec
 import numpy as np
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
 from ..accuracy import ErrorNorms
+from .console import Console
 from .differences import Side
 
 _NUMBERS = ("relative_l2", "linf", "rms", "bias", "relative_bias")

@@ -6,11 +6,11 @@ from io import StringIO
 from typing import TextIO
 
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from .check import ERROR, FAIL, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, printable, sentence
+from .console import Console
 
 _MARKS = {
     PASS: "[green]pass[/green]",

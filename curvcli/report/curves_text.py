@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from .console import Console
 from .curves import CurveReport, CurveRow
 from .model import CheckRow
 

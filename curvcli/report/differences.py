@@ -8,13 +8,13 @@ from typing import Any
 import msgspec
 import numpy as np
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
 from ..cell_differences import MovedColumn
 from ..differences import Difference, Tolerance
+from .console import Console
 
 # Rows of the summary; all with -v.
 _SHOWN = 40

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
+from .console import Console
 from .model import CheckRow, Input, Remark
 
 if TYPE_CHECKING:

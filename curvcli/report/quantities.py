@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any, TypedDict
 
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
@@ -14,6 +13,7 @@ from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
 from ..errors import UsageError
 from ..pipeline import in_order, load_passes, resolve
 from .advice import plain
+from .console import Console
 from .fitting import fitting, plain_table
 
 _PLAIN = str.maketrans("", "", "*")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from ..samples import specs
+from .console import Console
 
 if TYPE_CHECKING:
     from ..samples.model import Sample, SampleSpec

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from ..plurals import counted
 from ..settings import in_words
 from .build import model
+from .console import Console
 from .fitting import add_numbers, fitting, plain_table
 from .model import CheckRow, Report
 from .proof import holds, proof
