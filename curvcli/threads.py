@@ -20,7 +20,8 @@ def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
     Pieces are taken from an iterator as they are needed, so that few are there at a time.
     """
     todo = iter(pieces)
-    if (os.cpu_count() or 1) < _THREADS:
+    # The variable that numerical libraries obey; a batch sets it for its workers, each of which has one core.
+    if (os.cpu_count() or 1) < _THREADS or os.environ.get("OMP_NUM_THREADS") == "1":
         for piece in todo:
             work(piece)
         return

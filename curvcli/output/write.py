@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from threading import Event
@@ -58,8 +57,7 @@ def write_outputs(
     Errors: UsageError for a suffix that is not promised, OutputError for a path that exists or cannot be written.
     """
     paths = list(paths)
-    with ExitStack() as stack:
-        outputs = stack.enter_context(Outputs(paths, force))
+    with Outputs(paths, force) as outputs:
         return write_into(outputs, analysis, paths, appearance, stream_format)
 
 
