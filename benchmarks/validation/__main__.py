@@ -41,15 +41,19 @@ quarter of the error for half the edge, 0 or less that there is no convergence, 
 
 What to read from it:
 
-* Where the triangulation is a smooth image of a grid (torus, catenoid, unduloid), everything is of second order.
+* Where the triangulation is a smooth image of a grid (torus, catenoid, unduloid), everything that a single star says is
+  of second order. Next to a boundary estimates look to one side, and there they are of lower order.
 * The sphere and the ellipsoid made of an icosahedron have twelve vertices of degree 5. There a third of the star's area
   is not the area that belongs to the vertex: the largest error of what divides by it stays, and the mean falls with the
   share of those vertices. `--area mixed` or `voronoi` mends it for `K_density`.
 * On random triangulations what a single star says about a point does not converge, here or in any other program,
   except `K_density` by Voronoi cells on the sphere: the star shrinks, but it does not become rounder. That is no
   contradiction to exactness: `K`, `H_vec` and `A_vec` keep their sums, and sums over pieces of fixed size converge, as
-  `area` and `H_theta` do in the second tables; the Willmore energies, sums of squares, do not.
-* Estimates look further: two rings in the first tables, a fixed radius in the third. At a fixed radius more and more
+  `area` and `H_theta` do in the second tables; the Willmore energies, sums of squares, do not. `H_theta` sums inner
+  edges and `willmore` inner vertices: on the catenoid and the unduloid a strip along the rim is missing, which costs
+  them one order.
+* Estimates look further: two rings in the first tables, a fixed radius in the third (without the finest mesh, which
+  would add little there). At a fixed radius more and more
   stars are summed, and all of them converge, until what the radius itself blurs is left. Within two rings there is
   always the same number of faces, and only those that also fit or correct a normal converge.
 * On spheres the corrected measures are exact where the normals are.

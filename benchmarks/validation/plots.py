@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .convergence import Course
+from .convergence import ROUNDING, Course
 
 # What a picture shows, as far as it was measured; every row stands in the tables.
 SHOWN = (
@@ -21,7 +21,7 @@ SHOWN = (
 
 
 def draw(path: Path, title: str, courses: dict[str, dict[str, Course]]) -> None:
-    """Two panels, regular and irregular: root mean square errors, both axes logarithmic."""
+    """Two panels, regular and irregular: root mean square errors, both axes logarithmic; rounding is not drawn."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from matplotlib.ticker import NullLocator
@@ -29,20 +29,22 @@ def draw(path: Path, title: str, courses: dict[str, dict[str, Course]]) -> None:
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     FigureCanvasAgg(figure)
     panels = figure.subplots(1, len(courses), sharey=True)
-    shown = [name for name in SHOWN if any(name in each for each in courses.values())]
+    shown = [name for name in SHOWN if all(name in each for each in courses.values())]
     for panel, (triangulation, each) in zip(panels, courses.items(), strict=True):
+        begin = float("inf")
         for number, name in enumerate(shown):
-            if name in each:
-                style = "o--" if " " in name else "o-"
-                panel.loglog(each[name].edge, each[name].mean, style, color=f"C{number}", markersize=3, label=name)
-        first = next(iter(each.values()))
-        begin = 0.5 * min(course.mean[0] for name, course in each.items() if name in shown)
-        panel.loglog(
-            first.edge, [begin * (edge / first.edge[0]) ** 2 for edge in first.edge], "k:", label="second order"
-        )
+            course = each[name]
+            style = "o--" if " " in name else "o-"
+            if max(course.mean) < ROUNDING:  # an empty line keeps the place in the legend
+                panel.loglog([], [], style, color=f"C{number}", markersize=3, label=f"{name}: rounding")
+            else:
+                begin = min(begin, 0.5 * course.mean[0])
+                panel.loglog(course.edge, course.mean, style, color=f"C{number}", markersize=3, label=name)
+        edges = each[shown[0]].edge
+        panel.loglog(edges, [begin * (edge / edges[0]) ** 2 for edge in edges], "k:", label="second order")
         panel.set_title(f"{title}, {triangulation}", fontsize=10)
         panel.set_xlabel("mean edge length")
-        panel.set_xticks(first.edge, [f"{edge:.2g}" for edge in first.edge])
+        panel.set_xticks(edges, [f"{edge:.2g}" for edge in edges])
         panel.xaxis.set_minor_locator(NullLocator())
         panel.grid(True, which="major", alpha=0.3)
     panels[0].set_ylabel("error / largest curvature")
