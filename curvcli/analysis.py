@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Callable, Iterable
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +27,6 @@ from .regions import findings as region_findings
 from .settings import DEFAULTS, Settings, parse_scales
 from .surface import Surface
 from .totals import lost, lost_totals, totals
-
-if TYPE_CHECKING:
-    import os
 
 Array = NDArray[Any]
 Found = TypeVar("Found")
@@ -227,8 +225,8 @@ def analyze(
     orient: Orient | None = None,
     weld: str | float = "auto",
     unit: str | None = None,
-    regions: str | NDArray[np.integer[Any]] | None = None,
-    checks: Iterable[str] | None = None,
+    regions: str | os.PathLike[str] | NDArray[np.integer[Any]] | None = None,
+    checks: str | Iterable[str] | None = None,
     rings: str | int | None = None,
     radius: str | float | None = None,
     normals: Literal["mesh", "file"] = "mesh",
@@ -261,6 +259,8 @@ def analyze(
         if value not in known:
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld, normals=normals)
+    if isinstance(regions, os.PathLike):
+        regions = os.fspath(regions)
     named = regions if regions is None or isinstance(regions, str) else "array"
     weld = found.file.weld if found.file else "none"
     conventions = Conventions(mean, area, found.orient, weld, unit, named, *told(chosen, settings, found))

@@ -14,28 +14,51 @@ from .topology import Index
 def as_components(points: ArrayLike) -> NDArray[np.float64]:
     """(V, 3) numbers as frozen (3, V) float64, one contiguous row per coordinate.
 
-    Errors: InputError for another shape or type.
+    Errors: InputError for another shape or type, or masked entries.
     """
-    given = np.asarray(points)
+    given = _as_array(points, "points", "numbers of shape (V, 3)")
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
         raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (V, 3)")
     xyz = np.array(given.T, np.float64, order="C", copy=_copy(given))
-    xyz = xyz.view()  # so that freezing ours leaves the caller's array as it is
     xyz.setflags(write=False)
     return xyz
 
 
+def _as_array(given: ArrayLike, what: str, expected: str) -> NDArray[Any]:
+    try:
+        array = np.asarray(given)
+    except ValueError:
+        raise InputError(f"{what} have rows of different lengths, expected {expected}") from None
+    if np.ma.is_masked(given):
+        hint = "fill them in, or leave out what they belong to"
+        raise InputError(f"{what} have masked entries, expected {expected} that are all known", hint=hint)
+    return array
+
+
 def _copy(given: NDArray[Any]) -> bool | None:
     """Copy what its owner may still change, and the rest only where type or layout ask for it."""
-    return True if given.flags.writeable else None
+    owner: Any = given
+    while isinstance(owner, np.ndarray):
+        if owner.flags.writeable:
+            return True
+        owner = owner.base
+    return None if owner is None or isinstance(owner, bytes) else True
+
+
+def freeze(array: NDArray[Any]) -> None:
+    """Make an array read-only, and all that it is a view of: nobody will change them, and nobody need copy them."""
+    owner: Any = array
+    while isinstance(owner, np.ndarray):
+        owner.setflags(write=False)
+        owner = owner.base
 
 
 def as_triangles(faces: ArrayLike, vertices: int) -> Index:
     """(F, 3) indices as int32, in range and at least one.
 
-    Errors: InputError for another shape or type, no face, or a corner that does not exist.
+    Errors: InputError for another shape or type, masked entries, no face, or a corner that does not exist.
     """
-    given = np.asarray(faces)
+    given = _as_array(faces, "faces", "indices of shape (F, 3)")
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
         raise InputError(f"faces have shape {given.shape} and type {given.dtype}, expected indices of shape (F, 3)")
     if not len(given):
@@ -46,4 +69,4 @@ def as_triangles(faces: ArrayLike, vertices: int) -> Index:
             f"corner {given[face, corner]} does not exist, expected a vertex index from 0 to {vertices - 1}",
             place=f"face {face}",
         )
-    return np.array(given, np.int32, order="C", copy=_copy(given)).view()
+    return np.array(given, np.int32, order="C", copy=_copy(given))

@@ -95,6 +95,10 @@ class Pass:
     provides: tuple[Quantity, ...]
     needs: tuple[str, ...]
 
+    def __reduce__(self) -> tuple[Callable[[str], Pass], tuple[str]]:
+        """Processes that pass it on name it: its function stands in its module under the name of the pass."""
+        return registered, (self.name,)
+
     def __call__(self, surface: Any) -> Any:
         """Its column on a surface ((V, 3) for a vector), or a dictionary of them if it provides several.
 
@@ -120,10 +124,10 @@ class Registry(Mapping[str, Pass]):
         return self._passes[name]
 
     def __getattr__(self, name: str) -> Pass:
-        try:
-            return self._passes[name]
-        except KeyError:
-            raise AttributeError(name) from None
+        # No pass has such a name; a copy that is being made has no passes yet.
+        if name.startswith("_") or name not in self._passes:
+            raise AttributeError(name)
+        return self._passes[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._passes)
@@ -172,6 +176,14 @@ class Registry(Mapping[str, Pass]):
 
 
 passes = Registry()
+
+
+def registered(name: str) -> Pass:
+    """The pass of a name, wherever it comes from."""
+    from .pipeline import load_passes
+
+    load_passes()
+    return passes[name]
 
 
 def curvature_pass(provides: tuple[Quantity, ...] = (), **declaration: Any) -> Callable[[Callable[..., Any]], Pass]:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+# What is said of every group, or of each.
+Words = str | Callable[[int], str]
 
 
 @dataclass(frozen=True)
@@ -52,11 +54,11 @@ class Outcome:
     expected: Floats
     tolerance: Floats
     length_exponent: int = 0
-    detail: str | Callable[[int], str] = ""
+    detail: Words = ""
     residual: Floats | None = None
-    excluded: list[tuple[Mask, str]] = field(default_factory=list)
+    excluded: list[tuple[Mask, Words]] = field(default_factory=list)
 
-    def exclude(self, mask: Mask, reason: str) -> None:
+    def exclude(self, mask: Mask, reason: Words) -> None:
         """Groups on which the identity does not apply; the first reason given stands."""
         self.excluded.append((mask, reason))
 
@@ -77,6 +79,10 @@ class CheckRule:
     applies: str = ""
     bound: str = ""
     failure: str = ""
+
+    def __reduce__(self) -> tuple[Callable[[str], CheckRule], tuple[str]]:
+        """Processes that pass it on name it: its function stands in its module under the name of the rule."""
+        return rule_of, (self.name,)
 
     def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
         """The check on every group."""
@@ -99,13 +105,18 @@ class CheckRule:
         scope = groups.scope(group)
         for mask, reason in outcome.excluded:
             if mask[group]:
-                return Check(self.name, scope, "not_applicable", None, None, None, None, reason)
-        detail = outcome.detail if isinstance(outcome.detail, str) else outcome.detail(group)
+                return Check(self.name, scope, "not_applicable", None, None, None, None, _said(reason, group))
+        detail = _said(outcome.detail, group)
         value, expected, residual, tolerance = (_plain(side) for side in shown)
         return Check(self.name, scope, "pass" if passed else "fail", value, expected, residual, tolerance, detail)
 
 
 rules: dict[str, CheckRule] = {}
+
+
+def rule_of(name: str) -> CheckRule:
+    """The registered check of a name."""
+    return rules[name]
 
 
 def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., Outcome]], CheckRule]:
@@ -135,12 +146,26 @@ def rounding(surface: Surface, absolute: Floats) -> Floats:
 
 def exclude_null(outcome: Outcome, groups: Groups, surface: Surface, null: Mask, what: str) -> None:
     """An identity cannot be tested where one of its terms is undefined at a vertex that a face uses."""
-    missing = null & surface.referenced
-    if missing.any():
-        first = int(np.flatnonzero(missing)[0])
-        count = int(np.count_nonzero(missing))
-        some = f"vertex {first}" if count == 1 else f"{count} vertices, the first is {first}"
-        outcome.exclude(groups.vertices.any(missing), f"{what} is undefined at {some}")
+    where = np.flatnonzero(null & surface.referenced)
+    if not len(where):
+        return
+    label = groups.vertices.label
+    group = np.zeros(len(where), np.int64) if label is None else label[where]
+    count, first = np.bincount(group, minlength=groups.count), np.full(groups.count, -1)
+    first[group[::-1]] = where[::-1]
+
+    def reason(g: int) -> str:
+        # A region has vertices of its own, whose numbers nobody knows.
+        known = groups.kind != "region"
+        if count[g] == 1:
+            return f"{what} is undefined at {f'vertex {first[g]}' if known else 'one vertex'}"
+        return f"{what} is undefined at {count[g]} vertices" + (f", the first is {first[g]}" if known else "")
+
+    outcome.exclude(count > 0, reason)
+
+
+def _said(words: Words, group: int) -> str:
+    return words if isinstance(words, str) else words(group)
 
 
 def _plain(value: Any) -> Any:

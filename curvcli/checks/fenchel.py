@@ -34,11 +34,17 @@ def fenchel(surface: Surface, groups: Groups) -> Outcome:
         some = number >= 0
         least[some], vertices[some] = turning.total[number[some]], curves.sizes[number[some]]
     expected = np.full(groups.count, 2 * np.pi)
+
+    def detail(g: int) -> str:
+        # The loops of a region, whose border is boundary too, are numbered nowhere.
+        least_of = "told of the loop that" if groups.kind == "region" else f"loop {number[g]}"
+        return f"total curvature is at least 2π; {least_of} turns least"
+
     outcome = Outcome(
         least,
         expected,
         16 * EPSILON * vertices,
-        detail=lambda g: f"total curvature is at least 2π; loop {number[g]} turns least",
+        detail=detail,
         residual=np.maximum(expected - least, 0.0),
     )
     outcome.exclude(number < 0, "there is no closed boundary curve")

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from ..blocks import EPSILON, cross, dot
 from ..declare import Flags, VectorColumn
 from ..groups import Groups
+from ..plurals import counted
 from ..surface import Surface
 from .base import Floats, Outcome, check
 
@@ -41,12 +42,15 @@ def first_variation(
         row[:] = np.sqrt(dot(gap, gap)) / bound
     worst = np.full(surface.n_vertices, np.nan)
     worst[sample] = np.fmax(*strain)  # A_vec is null where there is no orientation
-    residual = groups.vertices.max(worst)
+    residual, moved = groups.vertices.max(worst), groups.vertices.count_true(chosen)
     outcome = Outcome(
         residual,
         np.zeros(groups.count),
         np.ones(groups.count),
-        detail=f"largest deviation over {len(sample)} vertices, in units of the error bound of the differences",
+        detail=lambda g: (
+            f"largest deviation over {counted(int(moved[g]), 'vertex', 'vertices')}, in units of the error bound of "
+            "the differences"
+        ),
     )
     outcome.exclude(np.isnan(residual), "no sampled vertex here has a gradient")
     return outcome

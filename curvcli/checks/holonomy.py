@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..blocks import EPSILON, cross, dot
 from ..declare import Column, VectorColumn
 from ..groups import Groups
+from ..plurals import counted
 from ..surface import Surface
 from ..topology import find_twins
 from .base import Outcome, check
@@ -38,8 +39,12 @@ def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorCol
     tolerance = (16 + np.log2(np.maximum(groups.vertices.max(faces), 2.0))) * EPSILON
     tolerance = tolerance * np.pi * np.maximum(groups.vertices.max(faces), 1.0)
     residual = groups.vertices.max(gap)
-    left_out = int(np.count_nonzero(inside) - np.count_nonzero(~np.isnan(gap)))
-    detail = "largest deviation of the rotation from K" + (f"; {left_out} vertices not walked" if left_out else "")
+    left_out = groups.vertices.count_true(inside & np.isnan(gap))
+
+    def detail(g: int) -> str:
+        rest = f"; {counted(int(left_out[g]), 'vertex', 'vertices')} not walked" if left_out[g] else ""
+        return f"largest deviation of the rotation from K{rest}"
+
     outcome = Outcome(residual, np.zeros(groups.count), tolerance, detail=detail)
     outcome.exclude(np.isnan(residual), "no interior vertex whose faces all have an area")
     return outcome

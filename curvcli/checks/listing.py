@@ -27,12 +27,13 @@ def _strain(check: Check) -> float:
     return check.residual / check.tolerance if check.residual and check.tolerance else 0.0
 
 
-def known_checks(names: Iterable[str]) -> list[str]:
-    """The names of identities in the order of the report.
+def known_checks(names: str | Iterable[str]) -> list[str]:
+    """The names of identities, also in comma lists, in the order of the report.
 
     Errors: UsageError for one that is not known, with the nearest.
     """
-    wanted = set(names)
+    entries = [names] if isinstance(names, str) else names
+    wanted = {name.strip() for entry in entries for name in entry.split(",")}
     for name in sorted(wanted - rules.keys()):
         near = get_close_matches(name, rules, 3, 0.4) or list(rules)
         raise UsageError(f"unknown check {name!r}; nearest: {', '.join(near)}")

@@ -6,6 +6,7 @@ import os
 import sys
 from typing import Any, BinaryIO, Literal
 
+from ..arrays import freeze
 from ..errors import InputError
 from ..surface import Surface
 from .model import MeshFile
@@ -50,7 +51,7 @@ def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
     try:
         faces, polygon, notices = triangulate(file)
         for array in (file.xyz, faces):
-            array.setflags(write=False)  # nobody will change them: the surface need not copy them
+            freeze(array)
         if not len(faces) and file.polylines:
             raise InputError("no faces, only `l` polylines", hint="`curvcli curves` measures polylines")
         return Surface(file.xyz.T, faces, orient=orient, polygon=polygon, file=file, notices=(*file.notices, *notices))
@@ -87,6 +88,6 @@ def as_surface(
         return load(given, orient=orient, weld=weld, normals=normals)
     if hasattr(given, "vertices") and hasattr(given, "faces"):
         return Surface(given.vertices, given.faces, orient=orient)
-    if isinstance(given, tuple) and len(given) == 2:
+    if isinstance(given, tuple | list) and len(given) == 2:
         return Surface(*given, orient=orient)
     raise TypeError(f"expected a Surface, a path, a trimesh.Trimesh or (points, faces), not {type(given).__name__}")

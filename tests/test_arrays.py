@@ -1,0 +1,149 @@
+"""Points and faces as a program has them: of every type, order and layout, its own to change, or not arrays at all."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+
+import curvcli
+from curvcli.errors import InputError
+from tests import meshes
+
+# Of whole numbers, which every type holds.
+POINTS = np.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 5]])
+FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+WANTED = curvcli.analyze((POINTS, FACES), "K,H_vec")
+
+
+def same(given: Any) -> None:
+    found = curvcli.analyze(given, "K,H_vec")
+    for name in ("K", "H_vec"):
+        np.testing.assert_array_equal(found.vertices[name], WANTED.vertices[name])
+
+
+@pytest.mark.parametrize(
+    "kind", ["f2", "<f4", ">f4", "<f8", ">f8", "longdouble", "i1", "u1", "<i2", ">i4", "<i8", ">u8"]
+)
+def test_types_of_points(kind: str) -> None:
+    same((POINTS.astype(kind), FACES))
+
+
+@pytest.mark.parametrize("kind", ["i1", "u1", "<i2", ">i2", "<i4", ">i4", "<u4", "<i8", ">i8", "<u8", ">u8"])
+def test_types_of_faces(kind: str) -> None:
+    same((POINTS, FACES.astype(kind)))
+
+
+def test_layouts() -> None:
+    """Columns apart, backwards, with gaps, out of a table of records, and out of something that is larger."""
+    apart, faces = np.asfortranarray(POINTS, float), np.asfortranarray(FACES)
+    gaps = np.repeat(np.repeat(POINTS, 2, axis=0), 3, axis=1)[::2, ::3]
+    records = np.zeros(4, [("xyz", float, 3), ("red", "u1")])
+    records["xyz"] = POINTS
+    for points in (apart, POINTS[::-1].copy()[::-1], gaps, records["xyz"], np.hstack([POINTS, POINTS])[:, 3:]):
+        same((points, FACES))
+        same((points, faces[:, ::-1][:, ::-1]))
+
+
+def test_what_stands_for_a_pair_of_arrays() -> None:
+    same((POINTS.tolist(), FACES.tolist()))
+    same([POINTS, FACES])
+    same((POINTS, tuple(map(tuple, FACES))))
+    same((np.ma.masked_array(POINTS), np.ma.masked_array(FACES, False)))
+    same(trimesh.Trimesh(POINTS, FACES, process=False))
+
+
+@pytest.mark.parametrize(
+    ("points", "faces", "words"),
+    [
+        ([[0, 0, 0], [1, 0]], FACES, "points have rows of different lengths, expected numbers of shape"),
+        (POINTS, [[0, 1, 2], [0, 1]], "faces have rows of different lengths, expected indices of shape"),
+        (np.ma.masked_equal(POINTS, 5), FACES, "points have masked entries"),
+        (POINTS, np.ma.masked_equal(FACES, 3), "faces have masked entries"),
+        (POINTS > 0, FACES, "points have shape (4, 3) and type bool"),
+        (POINTS * 1j, FACES, "type complex128"),
+        (POINTS.astype(object), FACES, "type object"),
+        (POINTS, FACES.astype(str), "faces have shape (4, 3) and type <U21"),
+        (POINTS, FACES.astype(float), "type float64, expected indices"),
+        (POINTS, FACES > 0, "type bool, expected indices"),
+        (POINTS, np.array([[0, 1, 2**63 + 5]], np.uint64), "face 0: corner 9223372036854775813 does not exist"),
+        ([], [], "points have shape (0,)"),
+        (POINTS, [], "faces have shape (0,)"),
+    ],
+)
+def test_what_is_refused(points: Any, faces: Any, words: str) -> None:
+    with pytest.raises(InputError) as raised:
+        curvcli.Surface(points, faces)
+    assert words in str(raised.value)
+    assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("given", [None, 3, (POINTS,), (POINTS, FACES, FACES), POINTS, trimesh.Scene()])
+def test_what_is_no_surface_at_all(given: Any) -> None:
+    with pytest.raises(TypeError, match=r"expected a Surface, a path, a trimesh\.Trimesh or \(points, faces\)"):
+        curvcli.analyze(given)
+
+
+def test_a_read_only_view_of_what_may_change_is_copied() -> None:
+    """Its owner may still change it; a surface stays as it was made."""
+    points, faces = np.asfortranarray(POINTS, float), FACES.astype(np.int32)
+    views = points[:], faces[:]
+    for view in views:
+        view.setflags(write=False)
+    surface = curvcli.Surface(*views)
+    points *= 2
+    faces[:] = 0
+    np.testing.assert_array_equal(surface.points, POINTS)
+    np.testing.assert_array_equal(surface.faces, FACES)
+
+
+def test_what_nobody_can_change_is_shared() -> None:
+    points, faces = np.array(POINTS.T, float, order="C"), FACES.astype(np.int32)
+    for array in (points, faces):
+        array.setflags(write=False)
+    surface = curvcli.Surface(points.T, faces)
+    assert np.shares_memory(surface.points, points)
+    assert np.shares_memory(surface.faces, faces)
+    turned = curvcli.analyze(surface, orient="outward").surface
+    assert np.shares_memory(turned.points, points)
+
+
+# ---------------------------------------------------------------------------- between processes
+
+
+def test_results_travel() -> None:
+    """Surfaces, results and passes go to another process and back, and may be copied."""
+    result = curvcli.analyze(
+        meshes.zoo("two_bodies").surface(), "all", regions=meshes.zoo("two_bodies").faces[:, 0] % 2
+    )
+    for travelled in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        assert {**travelled.report(), "timings": None} == {**result.report(), "timings": None}
+        np.testing.assert_array_equal(travelled.vertices["h"], result.vertices["h"])
+    assert pickle.loads(pickle.dumps(curvcli.passes.h)) is curvcli.passes.h
+    assert copy.copy(curvcli.passes) == curvcli.passes
+    surface = pickle.loads(pickle.dumps(result.surface))
+    np.testing.assert_array_equal(curvcli.passes.K(surface), result.vertices["K"])
+
+
+# ---------------------------------------------------------------------------- options
+
+
+def test_labels_in_a_file_may_be_named_by_a_path(tmp_path: Path) -> None:
+    np.save(tmp_path / "labels.npy", [3, 3, 4, 4])
+    report = curvcli.analyze((POINTS, FACES), regions=tmp_path / "labels.npy").report()
+    assert [region["name"] for region in report["regions"]] == ["3", "4"]
+    assert report["conventions"]["regions"] == str(tmp_path / "labels.npy")
+
+
+def test_one_check_may_be_named_by_a_word() -> None:
+    for names in ("gauss_bonnet", ["gauss_bonnet"], {"gauss_bonnet"}):
+        assert {check.name for check in curvcli.analyze((POINTS, FACES), checks=names).checks} == {"gauss_bonnet"}
+    found = {check.name for check in curvcli.analyze((POINTS, FACES), checks="volume, gauss_bonnet").checks}
+    assert found == {"gauss_bonnet", "volume"}
+    with pytest.raises(curvcli.errors.UsageError, match="unknown check 'gauss_bonet'; nearest: gauss_bonnet"):
+        curvcli.analyze((POINTS, FACES), checks="gauss_bonet")
