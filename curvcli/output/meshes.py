@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any, BinaryIO
+from collections.abc import Mapping
+from typing import Any, BinaryIO, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from ..errors import Notice
 from ..plurals import agree
 from .obj import write_obj
-from .ply import Polygons, write_ply
+from .parts import Parts
+from .ply import write_ply
 from .stl import write_stl
 from .tables import Column
 
@@ -21,63 +22,31 @@ _COLOR = ("red", "green", "blue", "alpha")
 
 
 def write_mesh(
-    stream: BinaryIO,
-    suffix: str,
-    points: NDArray[np.float64],
-    faces: NDArray[np.integer[Any]],
-    *,
-    polygons: Polygons | None = None,
-    vertex_colors: NDArray[np.uint8] | None = None,
-    vertex_properties: Mapping[str, Column] | None = None,
-    face_properties: Mapping[str, Column] | None = None,
-    comments: Iterable[str] = (),
-    triangles: NDArray[np.integer[Any]] | None = None,
-    active: str | None = None,
+    stream: BinaryIO, suffix: str, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
 ) -> tuple[Notice, ...]:
-    """Write a mesh in the format of the suffix, each with what it can hold: PLY and VTK everything, others colours.
+    """Write points (V, 3) and faces (F, 3) in the format of the suffix, with those parts that it can hold.
 
-    points (V, 3); faces (F, 3), or instead of them polygons: (corner indices one after the other, corners of each).
-    triangles: (F, 3) for what holds nothing else, where they are not the faces. active: the property that `.vtp` and
-    `.vtu` are coloured by. `.stl` holds the triangles alone. Returns what was lost without being asked.
+    PLY and VTK hold everything, OBJ and glTF colours, STL the triangles alone. Returns what was lost without being
+    asked.
     """
     if suffix == ".ply":
-        write_ply(
-            stream,
-            points,
-            faces,
-            polygons=polygons,
-            vertex_colors=vertex_colors,
-            vertex_properties=vertex_properties,
-            face_properties=face_properties,
-            comments=comments,
-        )
-        return ()
-    if suffix == ".obj":
-        write_obj(stream, points, faces, polygons=polygons, vertex_colors=vertex_colors, comments=comments)
-        return ()
-    if suffix in (".vtp", ".vtu"):
+        write_ply(stream, points, faces, **parts)
+    elif suffix == ".obj":
+        write_obj(stream, points, faces, **parts)
+    elif suffix in (".vtp", ".vtu"):
         from .vtk import write_vtk
 
-        write_vtk(
-            stream,
-            suffix,
-            points,
-            faces,
-            polygons=polygons,
-            vertex_colors=vertex_colors,
-            vertex_properties=vertex_properties,
-            face_properties=face_properties,
-            comments=comments,
-            active=active,
-        )
-        return ()
-    if suffix == ".glb":
+        write_vtk(stream, suffix, points, faces, **parts)
+    elif suffix == ".glb":
         from .glb import write_glb
 
-        return write_glb(stream, points, faces if triangles is None else triangles, vertex_colors)
-    if suffix == ".stl":
+        triangles = parts.get("triangles")
+        return write_glb(stream, points, faces if triangles is None else triangles, parts.get("vertex_colors"))
+    elif suffix == ".stl":
         return write_stl(stream, points, faces)
-    raise ValueError(f"{suffix}: no mesh is written with this suffix")
+    else:
+        raise ValueError(f"{suffix}: no mesh is written with this suffix")
+    return ()
 
 
 def beside_input(

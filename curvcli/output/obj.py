@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Unpack
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from .ply import Polygons
+from .parts import Parts
 from .text import blocks, lines, numbers, without, write_lines
 
 # k / 255 at four digits: enough to read back as the same byte.
@@ -17,25 +16,19 @@ _SHARES = np.round(np.arange(256) / 255, 4)
 
 
 def write_obj(
-    stream: BinaryIO,
-    points: NDArray[np.float64],
-    faces: NDArray[np.integer[Any]],
-    *,
-    polygons: Polygons | None = None,
-    vertex_colors: NDArray[np.uint8] | None = None,
-    comments: Iterable[str] = (),
+    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
 ) -> None:
     """Write `v x y z` or `v x y z r g b` with colours from 0 to 1, then `f` records counted from 1.
 
-    points (V, 3); faces (F, 3), or instead of them polygons: (corner indices one after the other, corners of each).
-    OBJ holds no further properties.
+    points (V, 3), faces (F, 3). Of the parts, polygons, colours and comments: OBJ holds no further properties.
     """
-    for comment in comments:
+    colors, polygons = parts.get("vertex_colors"), parts.get("polygons")
+    for comment in parts.get("comments", ()):
         stream.write(f"# {' '.join(comment.split())}\n".encode())
     for rows in blocks(len(points)):
         columns: dict[str, pl.Series | pl.Expr] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}
-        if vertex_colors is not None:
-            columns |= {name: numbers(_SHARES[vertex_colors[rows, k]]) for k, name in enumerate("rgb")}
+        if colors is not None:
+            columns |= {name: numbers(_SHARES[colors[rows, k]]) for k, name in enumerate("rgb")}
         write_lines(stream, {"v": pl.lit("v"), **columns})
     if polygons is None:
         for rows in blocks(len(faces)):

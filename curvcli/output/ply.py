@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, BinaryIO
+from collections.abc import Iterator, Mapping
+from typing import Any, BinaryIO, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..loading.model import Labels
+from .parts import Parts
 from .tables import Column
-
-Polygons = tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]
 
 _ROWS_AT_A_TIME = 16384  # a block of them stays in the cache until it is written
 _NAMES_TOLD = 256
@@ -28,32 +27,23 @@ _SCALARS = {
 
 
 def write_ply(
-    stream: BinaryIO,
-    points: NDArray[np.float64],
-    faces: NDArray[np.integer[Any]],
-    *,
-    polygons: Polygons | None = None,
-    vertex_colors: NDArray[np.uint8] | None = None,
-    vertex_properties: Mapping[str, Column] | None = None,
-    face_properties: Mapping[str, Column] | None = None,
-    comments: Iterable[str] = (),
+    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
 ) -> None:
-    """Write a mesh as binary little-endian PLY with `double` positions, in blocks of bounded memory.
+    """Write points (V, 3) and faces (F, 3) as binary little-endian PLY with `double` positions, in bounded memory.
 
-    points (V, 3); faces (F, 3), or instead of them polygons: (corner indices one after the other, corners of each).
-    vertex_colors (V, 3) as red, green, blue; properties keep their type (NaN is null; masked integers become double).
-    Labels become uchar or int codes whose meaning stands in comments. face_properties: one value per face or polygon.
+    Of the parts, polygons, colours, properties and comments. Properties keep their type; masked integers become double.
+    Labels become uchar or int codes whose meaning stands in comments.
     """
     vertices: dict[str, NDArray[Any]] = {axis: points[:, k] for k, axis in enumerate("xyz")}
-    if vertex_colors is not None:
-        vertices |= {name: vertex_colors[:, k] for k, name in enumerate(("red", "green", "blue"))}
-    told = [" ".join(comment.split()) for comment in comments]
-    properties = _scalars(vertex_properties or {}, told)
+    if (colors := parts.get("vertex_colors")) is not None:
+        vertices |= {name: colors[:, k] for k, name in enumerate(("red", "green", "blue"))}
+    told = [" ".join(comment.split()) for comment in parts.get("comments", ())]
+    properties = _scalars(parts.get("vertex_properties") or {}, told)
     if clash := vertices.keys() & properties.keys():
         raise ValueError(f"two vertex properties named {', '.join(sorted(clash))}")
     vertices |= properties
-    per_face = _scalars(face_properties or {}, told)
-    corners, sizes = polygons if polygons is not None else (faces.reshape(-1), None)
+    per_face = _scalars(parts.get("face_properties") or {}, told)
+    corners, sizes = parts.get("polygons") or (faces.reshape(-1), None)
     if sizes is not None and len(sizes) and sizes.min() == sizes.max() > 0:
         corners, sizes = corners.reshape(-1, int(sizes[0])), None
     elif sizes is None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any, BinaryIO
+from collections.abc import Mapping
+from typing import Any, BinaryIO, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..loading.model import Labels
-from .ply import Polygons, meaning
+from .parts import Parts, Polygons
+from .ply import meaning
 from .tables import Column
 
 _TRIANGLE, _POLYGON, _QUAD = 5, 7, 9
@@ -17,43 +18,32 @@ _COLORS = "RGB"
 
 
 def write_vtk(
-    stream: BinaryIO,
-    suffix: str,
-    points: NDArray[np.float64],
-    faces: NDArray[np.integer[Any]],
-    *,
-    polygons: Polygons | None = None,
-    vertex_colors: NDArray[np.uint8] | None = None,
-    vertex_properties: Mapping[str, Column] | None = None,
-    face_properties: Mapping[str, Column] | None = None,
-    comments: Iterable[str] = (),
-    active: str | None = None,
+    stream: BinaryIO, suffix: str, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
 ) -> None:
-    """Write a mesh as `.vtp` (polygons) or `.vtu` (unstructured grid) with float64 positions and arrays.
+    """Write points (V, 3) and faces (F, 3) as `.vtp` (polygons) or `.vtu` (unstructured grid), positions in float64.
 
-    points (V, 3); faces (F, 3), or instead of them polygons: (corner indices one after the other, corners of each).
-    Properties become arrays of points and cells under their names, NaN for null; three that end in _x, _y, _z become
-    a vector array as well. Labels are codes, -1 for none, whose meaning stands in the comments of the XML: field arrays
-    of text would keep other readers from the file. The colours are the array RGB. active: the array that a viewer
-    colours by at first.
+    Of the parts everything but triangles. Properties become arrays of points and cells under their names; three that
+    end in _x, _y, _z become a vector array as well. Labels are codes, -1 for none, whose meaning stands in the comments
+    of the XML: field arrays of text would keep other readers from the file. The colours are the array RGB.
     """
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
-    data, arrays = _mesh(suffix, faces, polygons)
-    told = [" ".join(comment.split()) for comment in comments]
+    data, arrays = _mesh(suffix, faces, parts.get("polygons"))
+    told = [" ".join(comment.split()) for comment in parts.get("comments", ())]
     at = vtkPoints()
     at.SetData(_array(points, arrays))
     data.SetPoints(at)
-    for properties, target in ((vertex_properties, data.GetPointData()), (face_properties, data.GetCellData())):
-        for name, column in (properties or {}).items():
+    of_vertices, of_faces = parts.get("vertex_properties") or {}, parts.get("face_properties") or {}
+    for properties, target in ((of_vertices, data.GetPointData()), (of_faces, data.GetCellData())):
+        for name, column in properties.items():
             _add(target, name, _values(name, column, told), arrays)
-        for stem in _vectors(properties or {}):
-            parts = [np.asarray((properties or {})[f"{stem}_{axis}"], np.float64) for axis in "xyz"]
-            _add(target, stem, np.stack(parts, axis=1), arrays)
-    if vertex_colors is not None:
-        _add(data.GetPointData(), _COLORS, vertex_colors, arrays)
-    if active is not None:
+        for stem in _vectors(properties):
+            components = [np.asarray(properties[f"{stem}_{axis}"], np.float64) for axis in "xyz"]
+            _add(target, stem, np.stack(components, axis=1), arrays)
+    if (colors := parts.get("vertex_colors")) is not None:
+        _add(data.GetPointData(), _COLORS, colors, arrays)
+    if (active := parts.get("active")) is not None:
         data.GetPointData().SetActiveScalars(active)
     writer = vtkXMLPolyDataWriter() if suffix == ".vtp" else vtkXMLUnstructuredGridWriter()
     writer.SetInputData(data)
