@@ -7,11 +7,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from curvcli.declare import Quantity
-from tests import meshes, strategies
+from tests import meshes
 from tests.columns import PUBLIC, Array, agree, everything, same
 from tests.meshes import Mesh
 
@@ -28,12 +26,10 @@ def of_zoo(name: str) -> Columns:
     return everything(meshes.zoo(name).surface())
 
 
-@cache
 def changed(name: str, change: Change) -> Columns:
     return everything(change(meshes.zoo(name)).surface())
 
 
-@cache
 def quantised(name: str) -> Columns:
     return everything(meshes.quantised(meshes.zoo(name)).surface())
 
@@ -99,80 +95,98 @@ def edge_map(one: Mesh, other: Mesh, vertex: Array) -> Array:
     return np.asarray(np.searchsorted(theirs.a.astype(np.int64) * n + theirs.b, ends[0] * n + ends[1]))
 
 
+def on_every_column(hold: Callable[[Quantity], None]) -> None:
+    """Try all of them, and tell together which of them fail."""
+    failed = []
+    for quantity in PUBLIC.values():
+        try:
+            hold(quantity)
+        except AssertionError as error:
+            error.add_note(f"column {quantity.name}")
+            failed.append(error)
+    if failed:
+        raise ExceptionGroup(f"{len(failed)} of {len(PUBLIC)} columns", failed)
+
+
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_translation(column: str, name: str) -> None:
+def test_translation(name: str) -> None:
     """An offset that costs no digit changes no bit."""
-    same(PUBLIC[column], changed(name, translated)[column], quantised(name)[column])
+    found, wanted = changed(name, translated), quantised(name)
+    on_every_column(lambda quantity: same(quantity, found[quantity.name], wanted[quantity.name]))
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_rotation(column: str, name: str) -> None:
+def test_rotation(name: str) -> None:
     """Vectors turn with the surface, numbers stay."""
-    quantity = PUBLIC[column]
-    wanted = of_zoo(name)[column]
-    agree(quantity, changed(name, rotated)[column], wanted @ meshes.rotation().T if quantity.vector else wanted)
+    found = changed(name, rotated)
+
+    def hold(quantity: Quantity) -> None:
+        wanted = of_zoo(name)[quantity.name]
+        agree(quantity, found[quantity.name], wanted @ meshes.rotation().T if quantity.vector else wanted)
+
+    on_every_column(hold)
 
 
+@pytest.mark.parametrize(("change", "factor"), [(at_1e9, 1e9), (at_1e_9, 1e-9)])
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_scale(column: str, name: str) -> None:
+def test_scale(name: str, change: Change, factor: float) -> None:
     """The declared power of the scale."""
-    quantity = PUBLIC[column]
-    for change, factor in ((at_1e9, 1e9), (at_1e_9, 1e-9)):
-        agree(
-            quantity,
-            changed(name, change)[column],
-            of_zoo(name)[column] * factor**quantity.length_exponent,
-            length=factor,
-        )
+    found, plain = changed(name, change), of_zoo(name)
 
+    def hold(quantity: Quantity) -> None:
+        wanted = plain[quantity.name] * factor**quantity.length_exponent
+        agree(quantity, found[quantity.name], wanted, length=factor)
 
-@cache
-def at_power_of_two(name: str, power: int) -> Columns:
-    given = meshes.zoo(name)
-    return everything(given.moved(np.ldexp(given.points, power)).surface())
+    on_every_column(hold)
 
 
 @pytest.mark.parametrize("power", [-500, -120, -60, -1, 1, 60, 120, 500])
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_powers_of_two(column: str, name: str, power: int) -> None:
+def test_powers_of_two(name: str, power: int) -> None:
     """Bit for bit; where a double cannot hold the result, null."""
-    quantity = PUBLIC[column]
-    with np.errstate(over="ignore", under="ignore"):
-        wanted = np.ldexp(of_zoo(name)[column], power * quantity.length_exponent)
-    if abs(power) == 500:
-        plain = of_zoo(name)[column]
-        lost = np.isinf(wanted) | ((np.abs(wanted) < np.finfo(float).tiny) & (plain != 0))
-        wanted = np.where(lost, np.nan, wanted)
-    same(quantity, at_power_of_two(name, power)[column], wanted)
+    given, plain = meshes.zoo(name), of_zoo(name)
+    found = everything(given.moved(np.ldexp(given.points, power)).surface())
+
+    def hold(quantity: Quantity) -> None:
+        column = plain[quantity.name]
+        with np.errstate(over="ignore", under="ignore"):
+            wanted = np.ldexp(column, power * quantity.length_exponent)
+        if abs(power) == 500:
+            lost = np.isinf(wanted) | ((np.abs(wanted) < np.finfo(float).tiny) & (column != 0))
+            wanted = np.where(lost, np.nan, wanted)
+        same(quantity, found[quantity.name], wanted)
+
+    on_every_column(hold)
 
 
 @pytest.mark.parametrize("name", CONSISTENT)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_order_of_faces(column: str, name: str) -> None:
+def test_order_of_faces(name: str) -> None:
     """Vertices and edges keep their values, faces take theirs along."""
-    quantity = PUBLIC[column]
-    wanted = of_zoo(name)[column]
-    if quantity.on == "face":
-        wanted = wanted[face_order(meshes.zoo(name))]
-    agree(quantity, changed(name, faces_shuffled)[column], wanted)
+    found, order = changed(name, faces_shuffled), face_order(meshes.zoo(name))
+
+    def hold(quantity: Quantity) -> None:
+        wanted = of_zoo(name)[quantity.name]
+        agree(quantity, found[quantity.name], wanted[order] if quantity.on == "face" else wanted)
+
+    on_every_column(hold)
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_order_of_vertices(column: str, name: str) -> None:
+def test_order_of_vertices(name: str) -> None:
     """Values follow their vertices and edges."""
-    quantity, given = PUBLIC[column], meshes.zoo(name)
-    found, order = changed(name, vertices_shuffled)[column], vertex_order(given)
-    wanted = of_zoo(name)[column]
-    if quantity.on == "vertex":
-        wanted = wanted[order]
-    elif quantity.on == "edge":
-        found = found[edge_map(given, vertices_shuffled(given), np.argsort(order))]
-    agree(quantity, found, wanted)
+    given = meshes.zoo(name)
+    columns, order = changed(name, vertices_shuffled), vertex_order(given)
+    edges = edge_map(given, vertices_shuffled(given), np.argsort(order))
+
+    def hold(quantity: Quantity) -> None:
+        found, wanted = columns[quantity.name], of_zoo(name)[quantity.name]
+        if quantity.on == "vertex":
+            wanted = wanted[order]
+        elif quantity.on == "edge":
+            found = found[edges]
+        agree(quantity, found, wanted)
+
+    on_every_column(hold)
 
 
 def reversed_column(quantity: Quantity, columns: Columns, without: Array) -> Array:
@@ -188,120 +202,55 @@ def reversed_column(quantity: Quantity, columns: Columns, without: Array) -> Arr
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_reversal(column: str, name: str) -> None:
+def test_reversal(name: str) -> None:
     """What is declared even stays, what is declared odd changes its sign."""
-    quantity, surface = PUBLIC[column], meshes.zoo(name).surface()
+    surface, found = meshes.zoo(name).surface(), changed(name, meshes.reversed_faces)
     face = ~surface.orientation.orientable[surface.orientation.patch]
     edge = face[surface.edges.order[surface.edges.start[:-1]] // 3]
-    without = {"face": face, "edge": edge, "vertex": np.zeros(surface.n_vertices, bool)}[quantity.on]
-    found = changed(name, meshes.reversed_faces)[column]
-    if quantity.name == "normal" and without.any():
-        # Without an orientation a face's normal is that of its own winding.
-        without = np.zeros_like(without)
-    agree(quantity, found, reversed_column(quantity, of_zoo(name), without))
+    unoriented = {"face": face, "edge": edge, "vertex": np.zeros(surface.n_vertices, bool)}
+
+    def hold(quantity: Quantity) -> None:
+        without = unoriented[quantity.on]
+        if quantity.name == "normal" and without.any():
+            # Without an orientation a face's normal is that of its own winding.
+            without = np.zeros_like(without)
+        agree(quantity, found[quantity.name], reversed_column(quantity, of_zoo(name), without))
+
+    on_every_column(hold)
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_convention_for_mean_curvature(column: str, name: str) -> None:
+def test_convention_for_mean_curvature(name: str) -> None:
     """Halved as often as declared."""
-    quantity = PUBLIC[column]
-    same(quantity, averaged(name)[column], of_zoo(name)[column] * 0.5**quantity.mean_degree)
-
-
-@cache
-def averaged(name: str) -> Columns:
-    return everything(meshes.zoo(name).surface(), mean="average")
+    found, plain = everything(meshes.zoo(name).surface(), mean="average"), of_zoo(name)
+    on_every_column(lambda q: same(q, found[q.name], plain[q.name] * 0.5**q.mean_degree))
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_another_surface_in_the_file(column: str, name: str) -> None:
-    quantity, given = PUBLIC[column], meshes.zoo(name)
-    wanted = of_zoo(name)[column]
-    beside, behind = changed(name, beside_another)[column], changed(name, behind_another)[column]
-    n = len(wanted)
-    agree(quantity, beside[:n], wanted, 1e-13)
-    agree(quantity, behind[len(behind) - n :], wanted, 1e-13)
-    assert len(given.points) < len(beside) or quantity.on != "vertex"
+def test_another_surface_in_the_file(name: str) -> None:
+    given = meshes.zoo(name)
+    beside, behind = changed(name, beside_another), changed(name, behind_another)
+
+    def hold(quantity: Quantity) -> None:
+        wanted = of_zoo(name)[quantity.name]
+        n = len(wanted)
+        agree(quantity, beside[quantity.name][:n], wanted, 1e-13)
+        agree(quantity, behind[quantity.name][len(behind[quantity.name]) - n :], wanted, 1e-13)
+        assert len(given.points) < len(beside[quantity.name]) or quantity.on != "vertex"
+
+    on_every_column(hold)
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("column", PUBLIC)
-def test_an_unreferenced_vertex(column: str, name: str) -> None:
-    quantity = PUBLIC[column]
-    found, wanted = changed(name, with_a_loose_vertex)[column], of_zoo(name)[column]
-    if quantity.on == "vertex":
-        loose, found = found[0], found[1:]
-        if quantity.kind not in ("label", "count"):
-            assert np.isnan(loose).all()
-    same(quantity, found, wanted)
+def test_an_unreferenced_vertex(name: str) -> None:
+    columns = changed(name, with_a_loose_vertex)
 
+    def hold(quantity: Quantity) -> None:
+        found = columns[quantity.name]
+        if quantity.on == "vertex":
+            loose, found = found[0], found[1:]
+            if quantity.kind not in ("label", "count"):
+                assert np.isnan(loose).all()
+        same(quantity, found, of_zoo(name)[quantity.name])
 
-# ---------------------------------------------------------------------------- on random meshes
-
-# Quotients are as ill-conditioned as the mesh pleases; what is an integral is not.
-MEASURES = [q for q in PUBLIC.values() if q.kind in ("measure", "angle", "length") and "willmore" not in q.name]
-
-
-def unfolded(columns: Columns) -> Columns:
-    """Without the dihedral angles of edges whose two faces lie on each other: π is as right as −π there."""
-    folded = np.abs(columns["theta"]) > np.pi - 1e-7
-    of_edges = ("theta", "H_sin", "H_theta", "H_tan")
-    return columns | {name: np.where(folded, np.nan, columns[name]) for name in of_edges if name in columns}
-
-
-@settings(max_examples=60)
-@given(strategies.any_mesh(), st.integers(-300, 300))
-def test_powers_of_two_on_random_meshes(given: Mesh, power: int) -> None:
-    plain, scaled = (everything(m.surface()) for m in (given, given.moved(np.ldexp(given.points, power))))
-    for quantity in PUBLIC.values():
-        with np.errstate(over="ignore", under="ignore"):
-            wanted = np.ldexp(plain[quantity.name], power * quantity.length_exponent)
-        lost = np.isinf(wanted) | ((np.abs(wanted) < np.finfo(float).tiny) & (plain[quantity.name] != 0))
-        np.testing.assert_array_equal(
-            np.where(lost, np.nan, scaled[quantity.name]), np.where(lost, np.nan, wanted), err_msg=quantity.name
-        )
-
-
-@settings(max_examples=60)
-@given(strategies.any_mesh(), st.tuples(*[st.integers(-(2**20), 2**20)] * 3))
-def test_translation_of_random_meshes(given: Mesh, offset: tuple[int, int, int]) -> None:
-    exact = meshes.quantised(given)
-    plain, moved = (everything(m.surface()) for m in (exact, exact.moved(exact.points + np.array(offset))))
-    for quantity in PUBLIC.values():
-        same(quantity, moved[quantity.name], plain[quantity.name])
-
-
-@settings(max_examples=60)
-@given(strategies.any_mesh())
-def test_rotation_of_random_meshes(given: Mesh) -> None:
-    plain, turned = (unfolded(everything(m.surface())) for m in (given, rotated(given)))
-    for quantity in MEASURES:
-        wanted = plain[quantity.name]
-        agree(quantity, turned[quantity.name], wanted @ meshes.rotation().T if quantity.vector else wanted, 1e-8)
-
-
-@settings(max_examples=60)
-@given(strategies.any_mesh())
-def test_relabelling_of_random_meshes(given: Mesh) -> None:
-    order = vertex_order(given)
-    plain, other = (unfolded(everything(m.surface())) for m in (given, vertices_shuffled(given)))
-    where = edge_map(given, vertices_shuffled(given), np.argsort(order))
-    for quantity in MEASURES:
-        found, wanted = other[quantity.name], plain[quantity.name]
-        found = found[where] if quantity.on == "edge" else found
-        agree(quantity, found, wanted[order] if quantity.on == "vertex" else wanted, 1e-9)
-
-
-@settings(max_examples=60)
-@given(strategies.any_mesh())
-def test_reversal_of_random_meshes(given: Mesh) -> None:
-    plain, other = (unfolded(everything(m.surface())) for m in (given, meshes.reversed_faces(given)))
-    surface = given.surface()
-    for quantity in MEASURES:
-        if quantity.parity == "odd" and not surface.orientable:
-            continue
-        nothing = np.zeros(len(plain[quantity.name]), bool)
-        agree(quantity, other[quantity.name], reversed_column(quantity, plain, nothing), 1e-9)
+    on_every_column(hold)
