@@ -97,13 +97,7 @@ class Analysis:
 
     def column(self, name: str) -> Array:
         """One column as a user sees it: (n,), (n, 3), or strings for labels."""
-        quantity = passes.quantity(name)
-        values = self._column(name)
-        if quantity.labels:
-            words = np.array(quantity.labels)[values]
-            words.setflags(write=False)
-            return words
-        return presented(quantity, values, self.surface, self.conventions.mean)
+        return presented(passes.quantity(name), self._column(name), self.surface, self.conventions.mean)
 
     def _column(self, name: str) -> Array:
         """A column as computed; those of a table asked for later are kept apart, so that no report depends on it."""

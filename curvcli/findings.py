@@ -50,6 +50,13 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
             "the mesh is coarse or rough there: no smooth surface has such curvatures",
         )
+    if "folded" in columns:
+        yield Notice.at(
+            "folded_edges",
+            np.flatnonzero(columns["folded"]),
+            "[edge|edges] where the surface folds onto itself; H_tan has no value there",
+            "H_theta and H_sin have one; sums of H_tan leave such edges out",
+        )
     if "below_noise" in columns:
         yield Notice.at(
             "below_noise",

@@ -10,6 +10,7 @@ from functools import cache
 from graphlib import TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from .declare import AT_SCALE, CELL_AREA, CELL_AREAS, NO_QUANTITIES, SURFACE, Pass, Quantity, passes
@@ -173,7 +174,12 @@ def _evaluate(
 
 
 def presented(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:
-    """A column as a user sees it: in the file's unit of length and the chosen convention for H, vectors as (n, 3)."""
+    """A column as a user sees it: in the file's unit of length and the chosen convention for H, codes as words.
+
+    Vectors come out as (n, 3).
+    """
+    if quantity.labels:
+        array = np.array(quantity.labels)[array]
     if quantity.length_exponent:
         array = surface.in_file_unit(array, quantity.length_exponent)
     if mean == "average" and quantity.mean_degree:

@@ -18,6 +18,7 @@ SOURCES = sorted(Path(curvcli.__file__).parent.rglob("*.py"))
 LOOSE = b"v 5 5 5\n"
 LINE = b"v 20 0 0\nf 1 2 5\n"
 MOBIUS = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\nf 1 2 3\nf 2 3 4\nf 3 4 5\nf 4 5 1\nf 5 1 2\n"
+FOLDED = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 1 4\n"
 INWARDS = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n"
 
 # Content, options, code, and the beginning of the message for one and, from the content twice, for two.
@@ -44,6 +45,7 @@ KINDS: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     ),
     "not_orientable": (MOBIUS, (), "patch without orientation, named by its lowest face"),
     "inside_out": (INWARDS, (), "closed patch of negative volume, named by its lowest face: its normals point inwards"),
+    "folded_edges": (FOLDED, ("-p", "H_tan"), "edge where the surface folds onto itself; H_tan has no value there"),
     "unknown_statements": (TETRAHEDRON + b"what 1\n", (), "unknown statement, ignored: `what`"),
     "ignored_statements": (TETRAHEDRON + b"call a\n", (), "free-form, point or drawing statement, ignored: `call`"),
     "rational_weights": (TETRAHEDRON.replace(b"v 10 0 0", b"v 10 0 0 2"), (), "vertex with a rational weight `w`"),

@@ -91,3 +91,5 @@ def test_a_flat_triangle_seen_from_both_sides(seed: int) -> None:
     assert total(result, "K") == pytest.approx(4 * math.pi, rel=1e-14)
     np.testing.assert_allclose(np.abs(result.edges["theta"]), math.pi, rtol=1e-14)
     np.testing.assert_allclose(result.vertices["K"].sum(), 4 * math.pi, rtol=1e-14)
+    assert np.isnan(result.edges["H_tan"]).all()
+    assert [notice.count for notice in result.notices if notice.code == "folded_edges"] == [3]

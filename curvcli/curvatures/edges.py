@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import EPSILON, cross, dot, face_blocks
-from ..declare import Column, VectorColumn, curvature_pass
+from ..declare import Column, Flags, VectorColumn, curvature_pass
 from ..surface import Surface
 from .mean import conormals
+from .star import null_where
 
 EDGES_PER_BLOCK = 16384
 
@@ -67,6 +68,13 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
         found = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
         angle[edges] = found if without is None else np.where(without[one], np.abs(found), found)
     return angle
+
+
+@curvature_pass(on="edge", kind="flag", public=False)
+def folded(theta: Column) -> Flags:
+    """Edges whose two faces lie on each other, to rounding."""
+    mask: Flags = np.pi - np.abs(theta) <= FOLD
+    return mask
 
 
 def _sides(surface: Surface, edges: NDArray[np.intp]) -> tuple[NDArray[Any], ...]:
@@ -156,9 +164,9 @@ def H_theta(theta: Column, edge_length: Column) -> Column:
     signed=True,
     total="H_tan",
     preserves="the area of parallel surfaces whose edges meet in mitres",
-    boundary="null",
+    boundary="null; also where the surface folds onto itself: the mitre there has no end",
     source="Sullivan, Discrete surfaces",
 )
-def H_tan(theta: Column, edge_length: Column) -> Column:
+def H_tan(theta: Column, edge_length: Column, folded: Flags) -> Column:
     """Mean curvature of the edge by the tangent, as mitred parallel surfaces have it."""
-    return 2 * np.tan(theta / 2) * edge_length
+    return null_where(folded, 2 * np.tan(theta / 2) * edge_length)
