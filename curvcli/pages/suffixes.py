@@ -9,11 +9,12 @@ _HOLDS = {
     "mesh": "the surface with its columns",
     "triangles": "the surface alone",
     "report": "the report",
+    "page": "the report, to be read",
     "picture": "a picture",
 }
 
 
 def page_part() -> str:
     """The suffixes of outputs, what they hold and how."""
-    rows = [f"| `{one.suffix}` | {_HOLDS.get(one.kind, one.kind)} | {one.description} |" for one in FORMATS.values()]
+    rows = [f"| `{one.suffix}` | {_HOLDS[one.kind]} | {one.description} |" for one in FORMATS.values()]
     return "\n".join(["| suffix | holds | format |", "|---|---|---|", *rows]) + "\n"

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 from rich.markup import escape
 from rich.table import Table
 
-from ..plurals import counted
 from ..settings import in_words
 from .build import model
 from .console import Console
 from .fitting import add_numbers, fitting, plain_table
 from .model import CheckRow, Report
 from .proof import holds, proof
+from .words import shape
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -55,20 +55,8 @@ def show(analysis: Analysis, verbose: int = 0) -> None:
 
 def _shape(report: Report) -> str:
     topology = report.topology
-    parts = [f"V {topology.vertices:,}  E {topology.edges:,}  F {topology.faces:,}  χ {topology.euler_characteristic}"]
-    words = [
-        "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge"),
-        "manifold" if topology.manifold else "not manifold",
-        "orientable" if topology.orientable else "not orientable",
-    ]
-    if topology.components > 1:
-        words.insert(0, counted(topology.components, "component"))
-    if topology.genus is not None:
-        words.append(f"genus {topology.genus}")
-    for count, name in ((topology.crosscaps, "crosscap"), (topology.boundary_loops, "boundary loop")):
-        if count:
-            words.append(counted(count, name))
-    return "  ".join([*parts, ", ".join(words)])
+    counts = f"V {topology.vertices:,}  E {topology.edges:,}  F {topology.faces:,}  χ {topology.euler_characteristic}"
+    return f"{counts}  {shape(topology)}"
 
 
 def _checks(rows: list[CheckRow], verbose: int) -> Iterator[Table]:

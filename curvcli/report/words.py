@@ -26,25 +26,24 @@ def verdict(report: Report) -> str:
     parts.append(counted(counts["pass"], "identity holds", "identities hold"))
     if counts["not_applicable"]:
         parts.append(f"{counts['not_applicable']:,} not applicable")
-    parts.append(counted(len(report.warnings), "warning", "warnings") if report.warnings else "no warnings")
+    parts.append(counted(len(report.warnings), "warning") if report.warnings else "no warnings")
     return ", ".join(parts)
 
 
 def shape(topology: Topology) -> str:
     """What the surface is: its pieces, its boundary, its genus."""
     words = [
-        "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge", "boundary edges"),
+        "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge"),
         "manifold" if topology.manifold else "not manifold",
         "orientable" if topology.orientable else "not orientable",
     ]
     if topology.components > 1:
-        words.insert(0, f"{topology.components:,} components")
+        words.insert(0, counted(topology.components, "component"))
     if topology.genus is not None:
         words.append(f"genus {topology.genus}")
-    if topology.crosscaps:
-        words.append(counted(topology.crosscaps, "crosscap", "crosscaps"))
-    if topology.boundary_loops:
-        words.append(counted(topology.boundary_loops, "boundary loop", "boundary loops"))
+    for count, name in ((topology.crosscaps, "crosscap"), (topology.boundary_loops, "boundary loop")):
+        if count:
+            words.append(counted(count, name))
     return ", ".join(words)
 
 
