@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import cache
@@ -39,29 +39,35 @@ def defaults(scaled: bool, noisy: bool) -> tuple[str, ...]:
     return ("core", *(("estimates",) if scaled else ()), *(UNCERTAINTIES if noisy else ()))
 
 
+def presets() -> dict[str, Sequence[str]]:
+    """The quantities that each preset stands for."""
+    load_passes()
+    public = passes.quantities()
+    return {
+        "topology": ["status", "degree"],
+        "core": CORE,
+        "paper": [q.name for q in public if q.source.startswith("Sullivan")],
+        "estimates": [q.name for q in public if q.kind == "density" and passes.depends_on_scale(q.name)],
+        "all": [q.name for q in public],
+    }
+
+
 def resolve(names: Iterable[str]) -> list[str]:
     """Quantity names for what a user asked for: names, stems of vectors, comma lists and presets, in table order.
 
     Errors: UsageError for an unknown name, with the nearest ones.
     """
-    load_passes()
+    named = presets()
     public = {quantity.name: quantity for quantity in passes.quantities()}
-    presets = {
-        "topology": ["status", "degree"],
-        "core": CORE,
-        "paper": [q.name for q in public.values() if q.source.startswith("Sullivan")],
-        "estimates": [q.name for q in public.values() if q.kind == "density" and passes.depends_on_scale(q.name)],
-        "all": list(public),
-    }
     stems = {column: q.name for q in reversed(public.values()) for column in (q.stem, *q.columns)}
     wanted: set[str] = set()
     for name in (part.strip() for entry in names for part in entry.split(",")):
-        if name in presets:
-            wanted.update(presets[name])
+        if name in named:
+            wanted.update(named[name])
         elif name in public or name in stems:
             wanted.add(stems.get(name, name))
         else:
-            near = get_close_matches(name, [*presets, *public], 3, 0.4)
+            near = get_close_matches(name, [*named, *public], 3, 0.4)
             way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
             raise UsageError(f"unknown pass {name!r}; {way_out}")
     return in_order(name for name in public if name in wanted)

@@ -14,7 +14,7 @@ from .wanted import one_stdout, tables_and_reports
 if TYPE_CHECKING:
     from ..maps import SurfaceMap
 
-_TABLES = ("vertices", "faces")
+TABLES = ("vertices", "faces")
 # Options that make sense only without --map, and only with it.
 _DIFFERENCES = (
     *("rtol", "atol", "only", "ignore", "common", "passes", "area", "mean", "orient", "unit", "regions"),
@@ -146,7 +146,7 @@ def compare_map(
     from ..output.atomic import Outputs
     from ..output.tables import parse_precision
 
-    wanted = tables_and_reports(outputs, tables, _TABLES, stream_format)
+    wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout(wanted, as_json, get)
     parse_precision(precision)
     welding = options.welding(weld)

@@ -8,27 +8,35 @@ from copy import copy
 import click
 from click.shell_completion import CompletionItem
 
+Known = Callable[[], Iterable[str]]
+
 
 class Names(click.ParamType[str]):
-    """Names of which only the program knows; the last of a comma list, or behind a prefix, is completed."""
+    """Names of which only the program knows; the last of a comma list is completed.
+
+    files: whether files may stand there too, or behind the `=` of a name that ends with one.
+    """
 
     name = "text"
 
-    def __init__(self, known: Callable[[], Iterable[str]]) -> None:
-        self.known = known
+    def __init__(self, known: Known, files: bool = False) -> None:
+        self.known, self.files = known, files
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
         """Those that begin as what was typed."""
+        _, equals, behind = incomplete.rpartition("=")
+        if equals:
+            return [CompletionItem(behind, type="file")] if self.files else []
         before, comma, last = incomplete.rpartition(",")
-        return [CompletionItem(f"{before}{comma}{name}") for name in self.known() if name.startswith(last)]
+        found = [CompletionItem(f"{before}{comma}{name}") for name in self.known() if name.startswith(last)]
+        return found or ([CompletionItem(incomplete, type="file")] if self.files else [])
 
 
 def _passes() -> list[str]:
     from ..declare import passes
-    from ..pipeline import load_passes
+    from ..pipeline import presets
 
-    load_passes()
-    return ["topology", "core", "paper", "all", *(quantity.name for quantity in passes.quantities("vertex"))]
+    return [*presets(), *(quantity.name for quantity in passes.quantities("vertex"))]
 
 
 def _quantities() -> list[str]:
@@ -53,8 +61,10 @@ def _requirements() -> list[str]:
 
 def _allowed() -> list[str]:
     from ..checks import rules
+    from ..pipeline import load_passes
     from ..requirements import DEFAULT
 
+    load_passes()
     return [*DEFAULT, *rules]
 
 
@@ -70,6 +80,37 @@ def _tables() -> list[str]:
     return [f"{kind}=" for kind in TABLES]
 
 
+def _tables_of_maps() -> list[str]:
+    from .compare import TABLES
+
+    return [f"{kind}=" for kind in TABLES]
+
+
+def _tables_of_curves() -> list[str]:
+    from .curves import TABLES
+
+    return [f"{kind}=" for kind in TABLES]
+
+
+def _parameters() -> Iterable[str]:
+    from ..samples.catalogue import specs
+
+    # Of all samples: while an option waits for its value, click has not read the arguments yet.
+    return dict.fromkeys(f"{parameter.name}=" for spec in specs() for parameter in spec.parameters)
+
+
+def _formats() -> list[str]:
+    from ..output.formats import suffixes
+
+    return [suffix[1:] for suffix in suffixes(("table", "mesh", "report", "page", "picture"))]
+
+
+def _plain_formats() -> list[str]:
+    from ..output.formats import suffixes
+
+    return [suffix[1:] for suffix in suffixes(("table", "report"))]
+
+
 def _topics() -> list[str]:
     from .main import COMMANDS
     from .topics import TOPICS
@@ -77,15 +118,23 @@ def _topics() -> list[str]:
     return [*TOPICS, *COMMANDS]
 
 
-_KNOWN: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
+# What is known of a parameter, in one command or in all.
+_KNOWN: dict[tuple[str, str], Known] = {
     ("*", "passes"): _passes,
     ("*", "color_by"): _columns,
-    ("*", "tables"): _tables,
-    ("check", "require"): _requirements,
+    ("analyze", "stream_format"): _formats,
+    ("analyze", "tables"): _tables,
+    ("batch", "save"): _formats,
     ("check", "allow"): _allowed,
+    ("check", "require"): _requirements,
+    ("compare", "stream_format"): _plain_formats,
+    ("compare", "tables"): _tables_of_maps,
+    ("curves", "stream_format"): _plain_formats,
+    ("curves", "tables"): _tables_of_curves,
     ("help", "topic"): _topics,
     ("passes", "name"): _quantities,
     ("sample", "name"): _samples,
+    ("sample", "settings"): _parameters,
 }
 
 _FILES = ("MESH", "FILE", "PATH", "PATTERN", "LIST", "A", "B")
@@ -96,14 +145,21 @@ def completing(command: click.Command) -> click.Command:
     command = copy(command)
     command.params = [copy(param) for param in command.params]
     for param in command.params:
-        if not isinstance(param.type, click.types.StringParamType) or param.name is None:
-            continue
-        known = _KNOWN.get((command.name or "", param.name)) or _KNOWN.get(("*", param.name))
-        first = (param.metavar or "").split("|")[0].rstrip(".")
-        if known is not None:
-            param.type = Names(known)
-        elif first == "DIR":
-            param.type = click.Path(file_okay=False)
-        elif first in _FILES:
-            param.type = click.Path()
+        if isinstance(param.type, click.types.StringParamType) and param.name is not None:
+            param.type = _type(command.name or "", param.name, param.metavar or "")
     return command
+
+
+def _type(command: str, name: str, metavar: str) -> click.ParamType[str]:
+    """By what is known of it, or by its metavar: names of files in capitals, and words as they are typed."""
+    known = _KNOWN.get((command, name)) or _KNOWN.get(("*", name))
+    if known is not None:
+        return Names(known, files=name == "tables")
+    choices = metavar.rstrip(".").split("|")
+    if choices[0] == "DIR":
+        return click.Path(file_okay=False)
+    words = [word for word in choices if word.islower() and word.isalpha()]
+    files = choices[0] in _FILES
+    if words:
+        return Names(lambda: words, files)
+    return click.Path() if files else click.STRING

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import click
 
-_SHELL = click.argument("name", metavar="[SHELL]", required=False, type=click.Choice(["bash", "zsh", "fish"]))
+from . import shells
+
+_SHELL = click.argument("name", metavar="[SHELL]", required=False, type=click.Choice(shells.SHELLS))
 
 
 @click.group("completion", short_help="Let the shell complete commands, options and names.")
@@ -25,8 +27,6 @@ def command() -> None:
 @_SHELL
 def install(name: str | None) -> int:
     """Write the script where the shell finds it and, for bash and zsh, the lines that load it."""
-    from . import shells
-
     one = shells.shell(name)
     for path, changed in shells.install(one):
         click.echo(f"{'written' if changed else 'unchanged'}: {path}")
@@ -38,8 +38,6 @@ def install(name: str | None) -> int:
 @_SHELL
 def remove(name: str | None) -> int:
     """Take away the script and the lines that load it."""
-    from . import shells
-
     one = shells.shell(name)
     for path, changed in shells.remove(one):
         did = "nothing to remove" if not changed else "removed" if path == one.script else "block removed"
@@ -51,7 +49,5 @@ def remove(name: str | None) -> int:
 @_SHELL
 def show(name: str | None) -> int:
     """Print the script, for those who keep their own start-up files."""
-    from . import shells
-
     click.echo(shells.source(shells.shell(name).name), nl=False)
     return 0

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..curves.measure import CurveMeasures
     from ..report.curves import CurveReport
 
-_TABLES = ("curves", "vertices")
+TABLES = ("curves", "vertices")
 
 
 @click.command("curves", short_help="Measure boundary loops and OBJ polylines as space curves.")
@@ -95,7 +95,7 @@ def measure(
     from ..output.atomic import Outputs
     from ..output.tables import parse_precision
 
-    wanted = tables_and_reports(outputs, tables, _TABLES, stream_format)
+    wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout(wanted, as_json, get)
     parse_precision(precision)
     welding = options.welding(weld)

@@ -161,6 +161,8 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
     try:
         if heard:
             raise KeyboardInterrupt
+        if COMPLETE in os.environ:
+            import_module("curvcli.commands.scripts")
         result = cli.main(complete_var=COMPLETE, standalone_mode=False)
         code = result if isinstance(result, int) else OK
         sys.stdout.flush()

@@ -59,14 +59,11 @@ def _quoted(path: str) -> str:
 
 
 def source(name: str) -> str:
-    """The script of a shell, by click."""
-    from click.shell_completion import get_completion_class
-
+    """The script of a shell."""
     from .main import COMPLETE, cli
+    from .scripts import ASKING
 
-    found = get_completion_class(name)
-    assert found is not None
-    made = found(cli, {}, "curvcli", COMPLETE)
+    made = ASKING[name](cli, {}, "curvcli", COMPLETE)
     return made.source_template % made.source_vars()
 
 
