@@ -215,10 +215,8 @@ def _refuse_index(
     line = int(np.flatnonzero(wanted)[row])
     position = int(wrong[0] - np.searchsorted(_row_of(records, np.arange(len(corners))), row))
     token = lines.text(line).split()[1 + position].decode("utf-8", "backslashreplace")
-    raise InputError(
-        f"vertex index `{token}` found, 1 to {vertices} expected, or negative: counted back from this line",
-        place=lines.place(line),
-    )
+    expected = f"1 to {vertices} expected, or negative: counted back from this line" if vertices else "but no vertex"
+    raise InputError(f"vertex index `{token}` found, {expected}", place=lines.place(line))
 
 
 def _polylines(lines: ObjLines, is_l: NDArray[np.bool_], is_v: NDArray[np.bool_]) -> tuple[NDArray[Any], ...]:

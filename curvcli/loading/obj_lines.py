@@ -8,7 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from .text import BLANK, NEWLINE, Records, Untidy, line_starts, pick_lines, read_records, tidy
+from .text import (
+    BLANK,
+    NEWLINE,
+    Records,
+    Untidy,
+    line_starts,
+    pick_lines,
+    read_records,
+    tidy,
+    without_comments,
+)
 
 
 @dataclass(frozen=True)
@@ -70,7 +80,7 @@ def tidy_lines(data: bytes) -> ObjLines:
     """The lines without comments and with continued lines joined."""
     data = tidy(data)
     if b"#" in data:
-        data = tidy(_without_comments(data))
+        data = tidy(without_comments(data))
     if b"\\\n" not in data:
         return split_lines(data, tidied=True)
     text = np.frombuffer(data, np.uint8)
@@ -79,19 +89,3 @@ def tidy_lines(data: bytes) -> ObjLines:
     numbers = np.flatnonzero(np.concatenate(([True], ~joined[:-1])))
     data = tidy(data.replace(b"\\\n", b" "))
     return split_lines(data if data.endswith(b"\n") else data + b"\n", numbers, tidied=True)
-
-
-def _without_comments(data: bytes) -> bytes:
-    """Blanks instead of comments: from a `#` at the start of a word, or anywhere in a record of numbers."""
-    text = np.frombuffer(data, np.uint8).copy()
-    starts = line_starts(text)
-    marks = np.flatnonzero(text == ord("#"))
-    line = np.searchsorted(starts, marks, side="right") - 1
-    in_numbers = np.isin(text[starts[line]], np.frombuffer(b"vfl", np.uint8))
-    begins = (text[np.maximum(marks, 1) - 1] <= BLANK) | (marks == 0) | in_numbers
-    line, which = np.unique(line[begins], return_index=True)
-    inside = np.zeros(len(text), np.int8)
-    inside[marks[begins][which]] = 1
-    inside[starts[line + 1] - 1] -= 1
-    text[np.cumsum(inside, dtype=np.int8).view(np.bool_)] = BLANK
-    return bytes(text)

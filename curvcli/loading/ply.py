@@ -109,9 +109,8 @@ def _checked(
     if len(indices) and (int(indices.min()) < lowest or int(indices.max()) >= vertices):
         wrong = int(np.flatnonzero((indices < lowest) | (indices >= vertices))[0])
         row = int(np.searchsorted(np.cumsum(sizes), wrong, side="right"))
-        raise InputError(
-            f"vertex index {int(indices[wrong])} found, 0 to {vertices - 1} expected", place=f"{name} {row}"
-        )
+        expected = f"0 to {vertices - 1} expected" if vertices else "but no vertex"
+        raise InputError(f"vertex index {int(indices[wrong])} found, {expected}", place=f"{name} {row}")
     return np.ascontiguousarray(indices, np.int32)
 
 

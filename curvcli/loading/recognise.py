@@ -20,6 +20,15 @@ _ARCHIVES = {
     b"7z\xbc\xaf\x27\x1c": "a 7z archive",
     b"\x1f\x8b": "gzip data within gzip data",
 }
+_INSTEAD = (
+    (re.compile(rb"version https://git-lfs\."), "a Git LFS pointer", "`git lfs pull` brings the file itself"),
+    (
+        re.compile(rb"(?:\.\./)*(?:\.git)?/annex/objects/"),
+        "a git-annex pointer",
+        "`git annex get` brings the file itself",
+    ),
+    (re.compile(rb"\s*+<(?:!doctype\s+html|html)\b", re.IGNORECASE), "a web page", "download the file itself"),
+)
 _WIDE_TEXT = re.compile(
     rb"\xff\xfe|\xfe\xff|(?:[\t\n\r -~]\0){4}|(?:\0[\t\n\r -~]){4}|(?:[\t\n\r -~]\0{3}){2}|(?:\0{3}[\t\n\r -~]){2}"
 )
@@ -69,6 +78,9 @@ def _refuse_what_is_known(data: bytes) -> None:
     for sign, what in _ARCHIVES.items():
         if data.startswith(sign):
             raise InputError(f"{what} found, a mesh expected", hint="unpack it first")
+    for known, what, way_out in _INSTEAD:
+        if known.match(data):
+            raise InputError(f"{what} found, a mesh expected", hint=way_out)
     if data[257:262] == b"ustar":
         raise InputError("a tar archive found, a mesh expected", hint="unpack it first")
     if _WIDE_TEXT.match(data):

@@ -11,14 +11,14 @@ from ..errors import InputError, Notice
 from ..plurals import agree, number_of
 from .limits import check_faces
 from .model import MeshFile
-from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy
+from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy, without_comments
 from .weld import weld_exact
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
 _KEYWORD = re.compile(rb"[ \n]+(endsolid|facet|outer|vertex|endloop|endfacet)\b", re.IGNORECASE)
 _SHARED_LINE = re.compile(rb"[^\n] (?:facet|vertex)\b", re.IGNORECASE)
-ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?\s*solid\b", re.IGNORECASE)
+ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+solid\b", re.IGNORECASE)
 
 
 def parse_stl(data: bytes, *, weld: bool = True, max_faces: int | None = None) -> MeshFile:
@@ -69,6 +69,7 @@ def _read_binary(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float32
             f"{number_of(count, 'facet')} announced, room for {(len(data) - _HEADER) // 50} found: "
             f"{number_of(missing, 'byte')} {agree(missing, '[is|are]')} missing",
             place="byte 80",
+            hint=None if b"\0" in data else "it is text, and text that is STL begins with `solid`",
         )
     check_faces(count, max_faces)
     facets = np.frombuffer(data, _FACET, count, _HEADER)
@@ -82,6 +83,8 @@ def _read_binary(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float32
 
 def _read_ascii(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
     text = tidy(plain_lines(data))
+    if b"#" in text:
+        text = tidy(without_comments(text, but_in=b"sS"))  # the name of a solid
     problem = None
     try:
         xyz, notices = _read_lines(text, max_faces)

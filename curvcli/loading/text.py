@@ -95,6 +95,26 @@ def tidy(data: bytes) -> bytes:
     return b"".join(parts)
 
 
+def without_comments(data: bytes, *, but_in: bytes = b"") -> bytes:
+    """Blanks instead of comments: from a `#` at the start of a word, or anywhere in a record of numbers.
+
+    but_in: first letters of lines that have none.
+    """
+    text = np.frombuffer(data, np.uint8).copy()
+    starts = line_starts(text)
+    marks = np.flatnonzero(text == ord("#"))
+    line = np.searchsorted(starts, marks, side="right") - 1
+    in_numbers = np.isin(text[starts[line]], np.frombuffer(b"vfl", np.uint8))
+    begins = (text[np.maximum(marks, 1) - 1] <= BLANK) | (marks == 0) | in_numbers
+    begins &= ~np.isin(text[starts[line]], np.frombuffer(but_in, np.uint8))
+    line, which = np.unique(line[begins], return_index=True)
+    inside = np.zeros(len(text), np.int8)
+    inside[marks[begins][which]] = 1
+    inside[starts[line + 1] - 1] -= 1
+    text[np.cumsum(inside, dtype=np.int8).view(np.bool_)] = BLANK
+    return bytes(text)
+
+
 def drop_empty_lines(data: bytes) -> tuple[bytes, NDArray[np.int64]]:
     """The lines of a tidy text that are not empty, and the number (from 0) that each had."""
     text = np.frombuffer(data, np.uint8)

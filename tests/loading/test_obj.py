@@ -182,7 +182,7 @@ class TestTraps:
             (SQUARE + b"  v 1 \xff 3\nf 1 2 3\n", "line 5: `\\xff` found, a number expected"),
             (SQUARE, "no faces"),
             (SQUARE + b"f 1 2\n", "no faces"),
-            (b"f 1 2 3\n", "line 1: vertex index `1` found, 1 to 0 expected"),
+            (b"f 1 2 3\n", "line 1: vertex index `1` found, but no vertex"),
             (b"hello\nworld\n", "no OBJ record found"),
             (b"\n", "no OBJ record found"),
             (b"#\n", "no OBJ record found"),

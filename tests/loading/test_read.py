@@ -108,6 +108,22 @@ def test_content_that_cannot_be_recognised(tmp_path: Path, told: str, data: byte
     assert refused(path).startswith(f"{path}: ")
 
 
+@pytest.mark.parametrize("told", ["obj", "ply", "stl"])
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:%064d\nsize 5\n" % 7, "a Git LFS pointer found, "),
+        (b"/annex/objects/MD5E-s5--0.obj\n", "a git-annex pointer found, "),
+        (b"../.git/annex/objects/aa/bb/MD5E-s5--0/MD5E-s5--0", "a git-annex pointer found, "),
+        (b"\n <!DOCTYPE  html>\n<html lang='en'>" + bytes(100), "a web page found, "),
+    ],
+)
+def test_what_was_brought_instead_of_the_file(tmp_path: Path, told: str, data: bytes, message: str) -> None:
+    path = tmp_path / f"mesh.{told}"
+    path.write_bytes(data)
+    assert refused(path).startswith(f"{path}: {message}a mesh expected; ")
+
+
 def test_utf_16(tmp_path: Path) -> None:
     """Also without a byte-order mark: with zeros for blanks, `10` would be read as two numbers."""
     for kind in ("obj", "ply", "stl"):

@@ -95,6 +95,20 @@ def test_all_on_one_line() -> None:
 def test_a_keyword_in_the_name_of_the_solid() -> None:
     data = ascii_stl(TETRAHEDRON).replace(b"made for a test", b"my facet vertex endloop")
     assert parse_stl(data).corners.tolist() == CORNERS
+    data = b" ".join(ascii_stl(TETRAHEDRON).replace(b"made for a test", b"part #3").split())
+    assert parse_stl(data).corners.tolist() == CORNERS
+
+
+def test_comments_are_no_statements() -> None:
+    """Text STL knows none, but some programs write them: before the first line, between lines and behind numbers."""
+    lines = ascii_stl(TETRAHEDRON).replace(b"made for a test", b"part #3").splitlines()
+    data = b"# solid\n\n  # facet\r\n" + b"".join(line + b" # vertex 1 2 3\n  # more\n" for line in lines)
+    assert parse_stl(data).corners.tolist() == CORNERS
+    assert codes(data) == {}
+    assert (
+        refused(data.replace(b"vertex 0.0 1.0 0.0", b"vertex 0.0 1.0"))
+        == "line 12: vertex with 2 numbers found, 3 expected"
+    )
 
 
 def test_what_is_counted() -> None:
@@ -113,6 +127,10 @@ class TestRefused:
         assert refused(data[:-1]) == "byte 80: 4 facets announced, room for 3 found: 1 byte is missing"
         for end in range(len(data)):
             assert refused(data[:end])
+
+    def test_text_without_its_first_line(self) -> None:
+        data = ascii_stl(TETRAHEDRON)
+        assert refused(data[data.index(b"facet") :]).endswith("; it is text, and text that is STL begins with `solid`")
 
     def test_a_huge_counter(self) -> None:
         data = binary_stl(TETRAHEDRON)
