@@ -12,9 +12,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from tests.cli.program import environment
-
-SERVER = Path(__file__).with_name("server.py")
+from tests.cli.program import SERVER, environment
 
 
 def provide(folder: Path, **programs: str) -> None:
@@ -34,13 +32,15 @@ def served(folder: Path, **more: str) -> Iterator[None]:
         address = Path(place, "socket")
         provide(folder, curvcli=f'-S -I "{SERVER}" "{address}" --ask')
         command = [sys.executable, SERVER, address]
-        with subprocess.Popen(command, stdout=subprocess.PIPE, env=environment(**more)) as server:
+        with subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment(**more)
+        ) as server:
             assert server.stdout is not None
             assert server.stdout.readline() == b"ready\n"
             try:
                 yield
             finally:
-                server.terminate()
+                server.communicate()
 
 
 def shell(code: str, folder: Path, programs: Path, **more: str) -> None:

@@ -1,13 +1,15 @@
-"""curvcli as a server that forks: pages with many commands wait for one start of Python instead of one for each.
+"""curvcli as a server that forks: many commands wait for one start of Python and its libraries, each is a process.
 
-`python server.py SOCKET` imports what commands use and serves; `python server.py SOCKET --ask ARGUMENT...` runs one
-command with the streams, the folder and the environment of whoever asks, and ends with its exit code.
+`python server.py SOCKET` imports what commands use and serves until its stdin ends, which it does with whoever started
+it; `python server.py SOCKET --ask ARGUMENT...` runs one command with the streams, the folder and the environment of
+whoever asks, and ends with its exit code.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import select
 import socket
 import sys
 import traceback
@@ -32,7 +34,7 @@ def ask(address: str, arguments: list[str]) -> int:
 
 
 def serve(address: str) -> None:
-    """Answer until the process is ended; each command runs in a child."""
+    """Answer until nobody can ask any more; each command runs in a child."""
     from importlib import import_module
 
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -45,7 +47,7 @@ def serve(address: str) -> None:
         door.bind(address)
         door.listen()
         print("ready", flush=True)
-        while True:
+        while sys.stdin not in select.select([door, sys.stdin], [], [])[0]:
             line, _ = door.accept()
             if os.fork() == 0:
                 if os.fork():  # the grandchild is nobody's zombie
@@ -55,6 +57,7 @@ def serve(address: str) -> None:
                 os._exit(0)
             os.wait()
             line.close()
+    os.unlink(address)
 
 
 def answer(line: socket.socket) -> None:
@@ -87,7 +90,7 @@ def answer(line: socket.socket) -> None:
 
 def run() -> None:
     """What `curvcli` does."""
-    from curvcli.commands.main import main
+    from curvcli.__main__ import main
 
     code = 70
     try:
