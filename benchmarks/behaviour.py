@@ -8,6 +8,7 @@ not installed are named and left out.
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterable
@@ -30,6 +31,9 @@ from .harness import CONSOLE
 
 Floats = NDArray[np.float64]
 
+# geometry-central has no curvatures in Python; `build` beside it makes this program.
+GEOMETRY_CENTRAL = Path(__file__).parent / "geometry_central" / "curvatures"
+
 
 @dataclass(frozen=True)
 class Said:
@@ -44,8 +48,8 @@ class Said:
 
     @property
     def total(self) -> float:
-        """The sum of K in units of π."""
-        return float(np.nansum(self.K)) / np.pi
+        """The sum of K in units of π, its rounding left out."""
+        return round(float(np.nansum(self.K)) / np.pi, 12) + 0.0  # zero has no sign
 
 
 def star_areas(points: Any, faces: Any) -> Floats:
@@ -103,12 +107,23 @@ def pymeshlab(path: str) -> Said:
     return Said(found["pointwise"] * mixed_areas(mesh.vertex_matrix(), mesh.face_matrix()), found["H"])
 
 
+def geometry_central(path: str) -> Said:
+    if not GEOMETRY_CENTRAL.exists():
+        raise ModuleNotFoundError(name="benchmarks/geometry_central/build makes it")
+    done = subprocess.run([str(GEOMETRY_CENTRAL), path], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(done.stderr.strip())
+    gauss, mean, area = np.array([line.split() for line in done.stdout.splitlines()], np.float64).T
+    return Said(gauss, mean / area)
+
+
 LIBRARIES: dict[str, Callable[[str], Said]] = {
     "curvcli": ours,
     "libigl": libigl,
     "VTK": vtk,
     "PyMeshLab": pymeshlab,
     "trimesh": trimesh,
+    "geometry-central": geometry_central,
 }
 
 

@@ -97,7 +97,7 @@ def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
     kind="density",
     length_exponent=-1,
     mean_degree=1,
-    preserves="the first variation: area changes h times as fast as volume along **A**",
+    preserves="the first variation: the fastest change of area, over that of volume, is |∇_p area| / |∇_p volume| = h",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
 )

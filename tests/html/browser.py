@@ -24,10 +24,11 @@ def browser() -> Iterator[Any]:
         from playwright.sync_api import sync_playwright
     except ImportError:
         pytest.skip("playwright is not installed: `pip install '.[test]'`")
-    program = next(filter(None, map(shutil.which, NAMES)), None)
-    if program is None:
-        pytest.skip(f"no browser is installed, looked for {', '.join(NAMES)}")
     with sync_playwright() as playwright:
+        own = playwright.chromium.executable_path  # what `playwright install chromium` brings
+        program = next(filter(None, map(shutil.which, (*NAMES, own))), None)
+        if program is None:
+            pytest.skip(f"no browser is installed: `playwright install chromium`; looked for {', '.join(NAMES)} too")
         launched = playwright.chromium.launch(executable_path=program, args=FLAGS)
         yield launched
         launched.close()
