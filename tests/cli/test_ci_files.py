@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ import pytest
 import yaml
 
 from curvcli.commands.main import COMMANDS
-from tests.cli.program import ROOT, environment
+from tests.cli.program import ROOT, environment, served
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def check(action: dict[str, Any], tmp_path: Path) -> Any:
     defaults = {name: one.get("default", "") for name, one in action["inputs"].items()}
     shutil.copytree(ROOT / "sample_meshes", tmp_path / "a b" / "parts")
     program = tmp_path / "curvcli"
-    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m curvcli "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec {shlex.join(served())} "$@"\n')
     program.chmod(0o755)
 
     def run(**inputs: str) -> subprocess.CompletedProcess[str]:

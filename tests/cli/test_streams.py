@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import CUBE, DISK, Ended, command, curvcli, environment, start, wrote
+from tests.cli.program import CUBE, DISK, Ended, curvcli, environment, served, start, wrote
 
 
 def test_from_stdin_to_stdout(tmp_path: Path) -> None:
@@ -38,7 +38,7 @@ def test_nothing_on_stdin() -> None:
 def test_every_format_goes_to_stdout(format: str, tmp_path: Path) -> None:
     """The very bytes that a file gets, timings apart."""
     done = subprocess.run(
-        command("analyze", CUBE, "-o", "-", "--format", format), capture_output=True, env=environment()
+        served("analyze", CUBE, "-o", "-", "--format", format), capture_output=True, env=environment()
     )
     assert (done.returncode, done.stderr) == (0, b"")
     file = tmp_path / f"t.{format}"
@@ -144,7 +144,7 @@ def on_a_terminal(*arguments: str, **more: str) -> Ended:
     """With stdout a terminal, stderr a pipe."""
     leader, follower = pty.openpty()
     process = subprocess.Popen(
-        command(*arguments), stdout=follower, stderr=subprocess.PIPE, env=environment(TERM="xterm-256color", **more)
+        served(*arguments), stdout=follower, stderr=subprocess.PIPE, env=environment(TERM="xterm-256color", **more)
     )
     os.close(follower)
     shown = b""
