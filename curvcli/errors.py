@@ -1,7 +1,9 @@
-"""Everything that can go wrong, one class per cause; `curvcli.commands` turns a cause into an exit code."""
+"""Everything that can go wrong, one class per cause; `curvcli.exits` has the exit code of each."""
 
 from __future__ import annotations
 
+import os
+import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -43,6 +45,13 @@ class OutputError(CurvcliError):
 
 class NoMatchError(CurvcliError):
     """A pattern that no file matched."""
+
+
+def defect(error: BaseException) -> str:
+    """What is said of an exception that none of these classes explains, and where it was raised."""
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    place = f"{os.path.basename(where.filename)}:{where.lineno}"
+    return f"internal error: {type(error).__name__}: {error} ({place})"
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from .analysis import Analysis
 from .assertions import Assertion
 from .checks import Check, rules
 from .errors import UsageError
+from .exits import FAILED_CHECK, OK
 from .pipeline import load_passes
 from .report.check import (
     ASSERTION,
@@ -96,7 +97,7 @@ def judge(analysis: Analysis, chosen: Plan, path: str) -> CheckedMesh:
         path,
         file.sha256 if file is not None else None,
         FAIL if failed else PASS,
-        1 if failed else 0,
+        FAILED_CHECK if failed else OK,
         {key: getattr(conventions, key) for key in CONVENTIONS},
         outcomes,
         [Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
@@ -109,7 +110,7 @@ def _of_identity(check: Check, flaw: str) -> Outcome:
         case "pass":
             message = _statement(check.name)
         case "fail":
-            message = "; ".join(part for part in (_gap(check), check.detail, flaw) if part)
+            message = "; ".join(part for part in (gap(check), check.detail, flaw) if part)
         case _:
             message = check.detail
     return Outcome(
@@ -125,7 +126,7 @@ def _of_identity(check: Check, flaw: str) -> Outcome:
     )
 
 
-def _gap(check: Check) -> str:
+def gap(check: Check) -> str:
     """What a failing identity found: `ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)`."""
     told = rules[check.name].gap if check.name in rules else ""
     name = told or "residual"

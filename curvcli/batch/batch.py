@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import msgspec
 
 from .._version import __version__
+from ..exits import FAILED_CHECK, INTERNAL, OK, OUTPUT
 from ..loading.content import shown
 from .manifest import Manifest
 from .model import Engine, Item, Row, Settings
-from .outcome import INTERNAL, OUTPUT
 from .places import hash_of, is_url, read_url
 from .summary import write_summary
 
@@ -83,7 +83,8 @@ class Batch:
         return row if row.sha256 == _hash(item) else None
 
     def _coded(self, row: Row) -> Row:
-        code = int(self.strict) if row.status == "failed_checks" else row.exit_code
+        failed = FAILED_CHECK if self.strict else OK
+        code = failed if row.status == "failed_checks" else row.exit_code
         return msgspec.structs.replace(row, exit_code=code)
 
     def _shown(self, item: Item) -> list[str]:

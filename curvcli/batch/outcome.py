@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import signal
-import traceback
 
-from ..errors import InputError, OutputError, UsageError
+from ..errors import InputError, OutputError, UsageError, defect
+from ..exits import INPUT, INTERNAL, OUTPUT
 from ..loading.content import shown
 from ..memory import ran_out
 from .model import Limits, Row, Status
-
-OK, FAILED_CHECK, INPUT, OUTPUT, INTERNAL = 0, 1, 3, 4, 70
 
 
 def explained(path: str, error: BaseException, limits: Limits) -> Row:
@@ -31,9 +28,7 @@ def explained(path: str, error: BaseException, limits: Limits) -> Row:
         case OutputError():
             text, code = str(error), OUTPUT
         case _:
-            where = traceback.extract_tb(error.__traceback__)[-1]
-            place = f"{os.path.basename(where.filename)}:{where.lineno}"
-            text, code = f"internal error: {type(error).__name__}: {error} ({place})", INTERNAL
+            text, code = defect(error), INTERNAL
     named = text if text.startswith(f"{path}:") or code == OUTPUT else f"{path}: {text}"
     return Row(path=path, status="error", exit_code=code, error=shown(" ".join(named.split("\n"))))
 

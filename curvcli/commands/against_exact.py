@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, UsageError
+from .sides import Read, analysed_side
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
-    from .comparing import Read
 
 _POSITION = ("x", "y", "z")
 # What is estimated where -p names nothing.
@@ -39,13 +39,12 @@ def accuracy(
     from ..accuracy import error_norms, match
     from ..pipeline import resolve
     from ..report.accuracy import model
-    from .comparing import analysed
 
     cells = exact.cells or {}
     named = conventions["passes"] or _ESTIMATED
     only_possible = [] if conventions["passes"] else list(match(dict.fromkeys(resolve(named)), cells))
     settings = {**conventions, "passes": tuple(only_possible or resolve(named))}
-    read, analysis = analysed(path, settings, dict(limits), quiet)
+    read, analysis = analysed_side(path, settings, limits, quiet)
     columns = {k: v for k, v in (read.cells or {}).items() if k not in (*_POSITION, "status", "welded_to")}
     surface = analysis.surface
     rows = len(next(iter(cells.values())))

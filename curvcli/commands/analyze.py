@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import CurvcliError, UsageError
+from ..exits import FAILED_CHECK, OK, exit_code, worst
 from ..memory import ran_out
 from . import options
+from .talk import internal, say
 from .wanted import table_option
 
 if TYPE_CHECKING:
@@ -132,7 +134,6 @@ class Run:
     def all(self) -> int:
         """Analyse every mesh; one bad mesh does not stop the rest."""
         from ..output.atomic import Outputs
-        from .main import exit_code, internal, say, worst
 
         codes, reports = [], []
         # Every output of every mesh is checked before the first mesh is read.
@@ -157,7 +158,7 @@ class Run:
                     codes.append(exit_code(error))
                     continue
                 reports.append(self.tell(analysis))
-                codes.append(1 if self.strict and not analysis.passed else 0)
+                codes.append(FAILED_CHECK if self.strict and not analysis.passed else OK)
             everything.commit()
         if self.as_json:
             from ..report.model import encode
@@ -219,8 +220,6 @@ class Run:
 
     def tell_of_picture(self, line: str) -> None:
         """What a picture leaves out, on stderr."""
-        from .main import say
-
         if not self.quiet:
             say(line)
 

@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import UsageError
+from ..exits import worst
 from . import options
+from .talk import say
 
 if TYPE_CHECKING:
     from ..batch.batch import Batch
@@ -102,7 +104,6 @@ def run(
     from ..batch.plan import plan, saves
     from ..output.write import check_appearance
     from ..report.words import shell_quoted
-    from .main import worst
 
     if not folder:
         raise UsageError("-o: expected a folder")
@@ -162,8 +163,6 @@ def _processors() -> int:
 
 def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> None:
     """Do it, with a bar on a terminal and a line for every mesh that fails."""
-    from .main import say
-
     if quiet or not sys.stderr.isatty():
         for row in batch.work(engine, todo):
             if row.error is not None:

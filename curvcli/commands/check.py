@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import CurvcliError, UsageError
+from ..exits import exit_code, worst
 from ..memory import ran_out
 from . import options
+from .talk import internal, say
 
 if TYPE_CHECKING:
     from ..report.check import CheckedMesh, CheckReport
@@ -117,7 +119,6 @@ class Run:
         """Check every mesh, write the report; the exit code."""
         from ..output.atomic import Outputs
         from ..report.check import report_of
-        from .main import worst
 
         with Outputs([] if self.output == "-" else [self.output], self.force) as outputs:
             found = [self.one(mesh) for mesh in self.meshes]
@@ -133,7 +134,6 @@ class Run:
     def one(self, mesh: str) -> CheckedMesh:
         """What came of one mesh; one that cannot be checked is told on stderr at once."""
         from ..report.check import failed_input
-        from .main import exit_code, internal, say
 
         try:
             return self.judged(mesh)
@@ -187,7 +187,6 @@ class Run:
     def tell(self, report: CheckReport) -> None:
         """What failed, on stderr, while the report is in a file."""
         from ..report.check import sentence
-        from .main import say
 
         failed = [sentence(mesh, one) for mesh in report.meshes for one in mesh.outcomes if one.status == "fail"]
         if not self.quiet:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
+from ..exits import FAILED_CHECK, OK
 from . import options
 from .wanted import one_stdout, tables_and_reports
 
@@ -158,7 +159,7 @@ def compare_map(
             with files.open(one.path) as stream:
                 _write(stream, found, one.kind, one.suffix, precision)
         _tell(found, as_json, get, quiet or to_stdout)
-    return 1 if any(check.status == "fail" for check in found.checks) else 0
+    return FAILED_CHECK if any(check.status == "fail" for check in found.checks) else OK
 
 
 def _tell(found: SurfaceMap, as_json: bool, get: str | None, quiet: bool) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from ..errors import UsageError
+from .talk import say
 
 OWN, SHARED = "curvcli.toml", "pyproject.toml"
 
@@ -165,8 +166,6 @@ def _one(option: click.Option, value: Any, place: str) -> Any:
 
 def tell(context: click.Context) -> None:
     """Say on stderr which file applies to a command."""
-    from .main import say
-
     path, tables = context.meta.get(META, (None, {}))
     if path is not None:
         name = context.command.name or ""

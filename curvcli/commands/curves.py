@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..exits import FAILED_CHECK, OK
 from . import options
 from .wanted import one_stdout, tables_and_reports
 
@@ -109,7 +110,7 @@ def measure(
                 _write(stream, measures, report, one.kind, one.suffix, precision)
         files.commit()
     _tell(report, as_json, get, quiet or to_stdout, verbose)
-    return 1 if strict and any(check.status == "fail" for check in report.checks) else 0
+    return FAILED_CHECK if strict and any(check.status == "fail" for check in report.checks) else OK
 
 
 def _read(file: str, weld: str | float, max_writhe: int, quiet: bool, limits: dict[str, Any]) -> CurveMeasures:

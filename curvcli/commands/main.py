@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
@@ -13,12 +12,14 @@ from typing import Any, NoReturn, cast
 import click
 
 from .._version import __version__
-from ..errors import CurvcliError, InputError, NoMatchError, OutputError, UsageError
+from ..errors import CurvcliError, UsageError
+from ..exits import INTERNAL, INTERRUPTED, OK, OUTPUT, USAGE, exit_code
 from ..memory import NUMPY, ran_out, require
 from .allocation import keep_memory
 from .config import META, blamed, configure
 from .signals import Ending, Handler
 from .streams import complete, refused, settle
+from .talk import internal, say
 
 COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample", "help", "completion")
 
@@ -27,42 +28,6 @@ UNCONFIGURED = ("help", "completion")
 
 # With this variable set the program completes a line of the shell; see `curvcli completion`.
 COMPLETE = "_CURVCLI_COMPLETE"
-
-OK, FAILED_CHECK, USAGE, INPUT, OUTPUT, NO_MATCH, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130
-
-EXIT_CODES = {
-    OK: "done",
-    FAILED_CHECK: "a check, requirement, assertion or comparison failed; analyze and batch: only with --strict",
-    USAGE: "usage, configuration, an unknown name, or an extra that is not installed",
-    INPUT: "an input is missing, cannot be read or used, or has a suffix that is not promised",
-    OUTPUT: "an output cannot be written or exists already",
-    NO_MATCH: "no file matched a pattern",
-    INTERNAL: "internal error; -vv shows the traceback",
-    INTERRUPTED: "interrupted",
-}
-
-_CODES: tuple[tuple[type[BaseException], int], ...] = (
-    (UsageError, USAGE),
-    (InputError, INPUT),
-    (OutputError, OUTPUT),
-    (NoMatchError, NO_MATCH),
-)
-
-# Letters of either end of a message that quotes something very long.
-_SHOWN = 1000
-
-# With several inputs the worst decides.
-WORST_FIRST = (INTERNAL, OUTPUT, INPUT, FAILED_CHECK, OK)
-
-
-def exit_code(error: BaseException) -> int:
-    """The exit code of a cause."""
-    return next((code for cause, code in _CODES if isinstance(error, cause)), INTERNAL)
-
-
-def worst(codes: list[int]) -> int:
-    """The exit code of several inputs."""
-    return min(codes, key=WORST_FIRST.index, default=OK)
 
 
 @contextmanager
@@ -212,27 +177,3 @@ def explain(error: BaseException) -> int:
     else:
         say(internal(error))
     return INTERNAL
-
-
-def internal(error: BaseException) -> str:
-    """One line for a defect of the program; the whole traceback with -vv."""
-    if any(argument == "-vv" for argument in sys.argv):
-        traceback.print_exception(error)
-    where = traceback.extract_tb(error.__traceback__)[-1]
-    place = f"{os.path.basename(where.filename)}:{where.lineno}"
-    return f"internal error: {type(error).__name__}: {one_line(str(error))} ({place}); -vv shows the traceback"
-
-
-def one_line(text: str) -> str:
-    """Text on one line, control characters shown; of a very long one the beginning and the end."""
-    if len(text) > 2 * _SHOWN:
-        text = f"{text[:_SHOWN]} … {text[-_SHOWN:]}"
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in " ".join(text.split("\n")))
-
-
-def say(message: str) -> None:
-    """One line on stderr; where nobody can read it, the exit code still tells."""
-    try:
-        click.echo(f"curvcli: {one_line(message)}", err=True)
-    except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from . import options
+from .talk import say
 
 if TYPE_CHECKING:
     from ..samples.model import Sample, SampleSpec
@@ -111,7 +112,6 @@ def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool) -> None:
     from ..output.meshes import write_mesh
     from ..output.stl import write_stl_text
     from ..output.tables import write_table
-    from .main import say
 
     if suffix in (".vtp", ".vtu"):
         require_vtk()

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import files
 
-from .main import EXIT_CODES
+from ..exits import EXIT_CODES
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from curvcli.analysis import Analysis
 from curvcli.checks import Check
 from curvcli.checks.base import rules
 from curvcli.conventions import Conventions
-from curvcli.gate import _gap, judge, plan
+from curvcli.gate import gap, judge, plan
 from curvcli.report.check import CheckReport, failed_input, schema, sentence, write_json
 from curvcli.report.check_text import write_text
 from curvcli.report.github import write_github
@@ -160,11 +160,11 @@ def test_text_is_plain_and_failures_come_first(found: CheckReport) -> None:
 
 def test_a_failing_identity_says_by_how_much() -> None:
     check = Check("gauss_bonnet", "whole", "fail", 5 * pi, 4 * pi, 5 * pi - 4 * pi, 2e-11, "χ = 2")
-    assert _gap(check) == "ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)"
+    assert gap(check) == "ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)"
     check = Check("force_balance", "whole", "fail", [1.0, 0.0, 0.0], [0.0, 0.0, 0.0], 1.0, 1e-15, "")
-    assert _gap(check) == "|ΣH_p − Ση|e|| = 1 (allowed 1e-15)"
+    assert gap(check) == "|ΣH_p − Ση|e|| = 1 (allowed 1e-15)"
     check = Check("of_a_plug_in", "whole", "fail", None, None, None, None, "")
-    assert _gap(check) == "residual = undefined (allowed undefined)"
+    assert gap(check) == "residual = undefined (allowed undefined)"
     assert all(rule.gap for rule in rules.values())
 
 

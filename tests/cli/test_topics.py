@@ -12,10 +12,11 @@ from click.testing import CliRunner
 
 import curvcli as package
 from curvcli.checks import rules
-from curvcli.commands.main import COMMANDS, EXIT_CODES, cli
+from curvcli.commands.main import COMMANDS, cli
 from curvcli.commands.schemas import SCHEMAS, path_of
 from curvcli.commands.topics import TOPICS
 from curvcli.declare import passes
+from curvcli.exits import EXIT_CODES
 from curvcli.output.formats import FORMATS
 from curvcli.requirements import kinds
 from tests.cli.program import CUBE, DISK, ROOT, curvcli

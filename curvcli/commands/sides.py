@@ -1,0 +1,131 @@
+"""The two sides that `curvcli compare` sets against each other: meshes that are analysed, reports, and tables."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ..errors import UsageError
+from . import options
+from .progress import phase
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+    from ..report.differences import Side
+
+
+@dataclass
+class Read:
+    """One side: its report and its cells by column, as far as it has them."""
+
+    side: Side
+    report: dict[str, Any] | None = None
+    cells: dict[str, Any] | None = None
+
+
+def both_sides(
+    a: str, b: str, given: set[str], conventions: dict[str, Any], limits: dict[str, Any], quiet: bool
+) -> tuple[Read, Read]:
+    """Both sides, a mesh against a report or a table analysed as that was made.
+
+    given: the conventions that stand whatever a stored side was made with.
+    Errors: UsageError for a report and a table; InputError for what cannot be read.
+    """
+    kinds = {kind_of(a), kind_of(b)}
+    if kinds == {"report", "table"}:
+        raise UsageError("a report and a table have no values in common; compare the mesh with each of them")
+    # What is stored comes first: it says how to analyse the mesh.
+    stored = {path: stored_side(path, limits["max_bytes"]) for path in (a, b) if kind_of(path) != "mesh"}
+    for side in stored.values():
+        conventions |= {name: value for name, value in _made_with(side).items() if name not in given}
+    first, second = (stored.get(path) or analysed_side(path, conventions, limits, quiet)[0] for path in (a, b))
+    return first, second
+
+
+def kind_of(path: str) -> str:
+    """`mesh`, `report` or `table`, by the suffix."""
+    from ..loading.stored import SUFFIXES
+
+    suffix = os.path.splitext(path)[1].lower()
+    return "report" if suffix == ".json" else "table" if suffix in SUFFIXES else "mesh"
+
+
+def stored_side(path: str, max_bytes: int | None) -> Read:
+    """A report or a table that was written before."""
+    from ..loading.stored import read_stored_table
+    from ..report.differences import Side
+    from ..report.stored import read_report
+
+    if kind_of(path) == "report":
+        report = read_report(path, max_bytes=max_bytes)
+        return Read(Side(path, "report", report["input"]["sha256"]), report)
+    return Read(Side(path, "table"), cells=read_stored_table(path, max_bytes=max_bytes))
+
+
+def _made_with(side: Read) -> dict[str, Any]:
+    """The passes and conventions that make a mesh's report or table comparable with this one."""
+    from ..declare import passes
+    from ..pipeline import load_passes
+    from ..settings import options_of
+
+    load_passes()
+    columns = {column: q.name for q in passes.quantities("vertex") for column in q.columns}
+    found: dict[str, Any] = {} if side.report is None else side.report["conventions"]
+    scales = found.get("scale") or ""
+    columns |= {f"{column}_{scale}": name for column, name in columns.items() for scale in scales.split(",")}
+    if side.report is None:
+        return {"passes": tuple(dict.fromkeys(columns[name] for name in side.cells or () if name in columns))}
+    # Totals of vertex columns may stem from what other columns need; chosen, they would add columns.
+    totals = {q.total: q.name for q in passes.quantities() if q.total and q.on != "vertex"}
+    names = [columns[name] for name in side.report["columns"] if name in columns]
+    names += [totals[name] for name in side.report["totals"] if name in totals]
+    made = {key: found[key] for key in ("mean", "area", "orient", "normals") if found.get(key) is not None}
+    made |= {"unit": found.get("unit"), "passes": tuple(dict.fromkeys(names))}
+    if found.get("scale") is not None:
+        made |= options_of(found["scale"])
+    if found.get("noise") is not None:
+        made["noise"] = float(found["noise"])
+    if found.get("weld") not in (None, "none"):
+        made["weld"] = options.welding(found["weld"])
+    if found.get("regions") not in (None, "array"):
+        made["regions"] = found["regions"]
+    return made
+
+
+def analysed_side(
+    path: str, conventions: Mapping[str, Any], limits: Mapping[str, Any], quiet: bool
+) -> tuple[Read, Analysis]:
+    """A mesh with its report and its columns as a stored table would have them."""
+    from ..analysis import analyze
+    from ..loading.surfaces import load
+    from ..report.differences import Side
+    from ..tables import vertex_table
+
+    settings = dict(conventions)
+    names = settings.pop("passes")
+    with phase(f"reading {path}", quiet):
+        source = sys.stdin.buffer if path == "-" else path
+        asked = {key: settings[key] for key in ("weld", "orient", "normals") if key in settings}
+        surface = load(source, **asked, **limits)
+    with phase(f"computing {path}", quiet):
+        analysis = analyze(surface, names or ("core",), **settings)
+        report = analysis.report()
+    sha256 = surface.file.sha256 if surface.file is not None else None
+    cells = {name: _plain(column) for name, column in vertex_table(analysis).items() if name != "vertex"}
+    return Read(Side(path, "mesh", sha256), report, cells), analysis
+
+
+def _plain(column: Any) -> Any:
+    """A column of a table as floats with NaN or words with None for null, as a stored table is read."""
+    import numpy as np
+
+    from ..loading.model import Labels
+
+    if isinstance(column, Labels):
+        return np.array([*column.names, None], object)[np.asarray(column.codes)]
+    if isinstance(column, np.ma.MaskedArray):
+        return np.ma.filled(column.astype(np.float64), np.nan)
+    return column

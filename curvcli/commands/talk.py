@@ -1,0 +1,39 @@
+"""What the program says on stderr: one line at a time, whatever is in it and whoever can read it."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import traceback
+
+import click
+
+from ..errors import defect
+
+# Letters of either end of a message that quotes something very long.
+_SHOWN = 1000
+
+
+def say(message: str) -> None:
+    """One line on stderr; where nobody can read it, the exit code still tells."""
+    try:
+        click.echo(f"curvcli: {one_line(message)}", err=True)
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+
+
+def one_line(text: str) -> str:
+    """Text on one line, control characters shown; of a very long one the beginning and the end."""
+    if len(text) > 2 * _SHOWN:
+        text = f"{text[:_SHOWN]} … {text[-_SHOWN:]}"
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in " ".join(text.split("\n")))
+
+
+def internal(error: BaseException) -> str:
+    """One line for a defect of the program; the whole traceback goes to stderr with -vv."""
+    # By what was typed: the defect may have come before, or amid, the reading of options.
+    typed = [word for word in sys.argv[1:] if re.fullmatch(r"-[qv]+", word)]
+    if "".join(typed).count("v") + sys.argv.count("--verbose") > 1:
+        traceback.print_exception(error)
+    return f"{one_line(defect(error))}; -vv shows the traceback"
