@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import pytest
 
+from curvcli.commands import batch
 from curvcli.commands.main import main
 from tests.exact_values import MESHES
 
@@ -53,6 +54,9 @@ def _signals() -> Iterator[None]:
 
 @pytest.fixture
 def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Run:
+    """With one worker unless -j names more: each takes a second to start."""
+    monkeypatch.setattr(batch, "_processors", lambda: 1)
+
     def call(*arguments: object) -> Ended:
         monkeypatch.setattr(sys, "argv", ["curvcli", *map(str, arguments)])
         with pytest.raises(SystemExit) as stop:

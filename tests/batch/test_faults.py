@@ -162,7 +162,7 @@ def test_an_end_at_any_moment_changes_nothing(tmp_path: Path, trapped: dict[str,
         assert str(tmp_path / "scans" / "3.obj") not in finished
         assert len(finished) == len((tmp_path / "out" / "manifest.jsonl").read_bytes().splitlines())
 
-    resumed = run(trapped, tmp_path, "out", "-j", "2", "--resume")
+    resumed = run(trapped, tmp_path, "out", "-j", "1", "--resume")
     assert (resumed.returncode, resumed.stderr) == (0, "")
     files = {path.name for path in (tmp_path / "whole").iterdir()}
     assert {path.name for path in (tmp_path / "out").iterdir()} == files
