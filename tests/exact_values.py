@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -101,10 +100,7 @@ def edges(name: str) -> dict[str, Array]:
     a, b = np.array(given["vertices"]).T
     found = {"a": a, "b": b, "theta": theta, "beta": array(given["beta"])}
     found |= {key: sign * array(given[key]) for key in ("H_sin", "H_theta", "H_tan")}
-    length = array(given["length"])
-    found |= dict.fromkeys(("length", "edge_length"), length)
-    found |= {key: array(given["H"]) for key in ("H_vec", "H_e", "H_vec_e", "edge_H_vec", "H_edge", "H_vec_edge")}
-    return found
+    return found | {"length": array(given["length"]), "H_vec": array(given["H"])}
 
 
 def length_exponents() -> dict[str, int]:
@@ -145,14 +141,5 @@ def totals(name: str) -> dict[str, Any]:
         "willmore_conformal": g["bobenko_energy"],
         "dirichlet": g["area"],
     }
-    return found | {key: math.fsum(x for x in lengths[key] if x == x) if orientable else None for key in SIZES}
-
-
-SIZES = ("H_theta", "H_sin", "H_tan")
-
-
-def sums(name: str, column: Callable[[dict[str, Array]], Array], members: Array) -> Any:
-    """The sum of a vertex column over some vertices, nulls left out."""
-    values = column(Vertices(name).columns())[members]
-    known = values[~np.isnan(values).reshape(len(values), -1).any(axis=1)]
-    return [math.fsum(x) for x in known.T] if known.ndim == 2 else math.fsum(known)
+    sizes = ("H_theta", "H_sin", "H_tan")
+    return found | {key: math.fsum(x for x in lengths[key] if x == x) if orientable else None for key in sizes}
