@@ -14,7 +14,7 @@ from rich.table import Table
 
 from .._version import __version__
 from ..accuracy import ErrorNorms
-from .console import Console
+from .console import report_console
 from .differences import Side
 
 _NUMBERS = ("relative_l2", "linf", "rms", "bias", "relative_bias")
@@ -103,9 +103,7 @@ def table(found: Accuracy) -> dict[str, Any]:
 
 def show(found: Accuracy, verbose: int = 0) -> None:
     """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = max(console.width, 120)
+    console = report_console(120)
     console.print(f"mesh [bold]{escape(found.mesh.path)}[/bold], exact values [bold]{escape(found.exact.path)}[/bold]")
     for note in found.notes:
         console.print(f"[yellow]note[/yellow] {escape(note)}")

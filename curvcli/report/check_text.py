@@ -10,14 +10,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from .check import ERROR, FAIL, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, printable, sentence
-from .console import Console
+from .console import MARKS, report_console
 
-_MARKS = {
-    PASS: "[green]pass[/green]",
-    FAIL: "[bold red]FAIL[/bold red]",
-    ERROR: "[bold red]ERROR[/bold red]",
-    NOT_APPLICABLE: "[dim]n/a[/dim]",
-}
 _ORDER = (ERROR, FAIL, PASS, NOT_APPLICABLE)
 
 
@@ -30,13 +24,11 @@ def write_text(report: CheckReport, verbose: int = 0) -> bytes:
 
 def show(report: CheckReport, verbose: int = 0, stream: TextIO | None = None) -> None:
     """Print the report, to stdout unless told otherwise; rich where that is a terminal, plain text elsewhere."""
-    console = Console(file=stream, highlight=False)
-    if not console.is_terminal:
-        console.width = max(console.width, 100)
+    console = report_console(100, stream)
     for mesh in report.meshes:
         for outcome in mesh.trouble:
             # Never folded: one line, one failure, for grep and for eyes.
-            console.print(f"{_MARKS[outcome.status]} {escape(sentence(mesh, outcome))}", soft_wrap=True)
+            console.print(f"{MARKS[outcome.status]} {escape(sentence(mesh, outcome))}", soft_wrap=True)
     for mesh in report.meshes:
         if verbose:
             for remark in mesh.warnings:
@@ -71,7 +63,7 @@ def _outcomes(mesh: CheckedMesh) -> Table:
     for outcome in sorted(mesh.outcomes, key=lambda outcome: _ORDER.index(outcome.status)):
         cells = (escape(printable(text)) for text in (outcome.name, outcome.scope, outcome.message))
         name, scope, message = cells
-        table.add_row(name, scope, _MARKS[outcome.status], message)
+        table.add_row(name, scope, MARKS[outcome.status], message)
     return table
 
 
@@ -84,5 +76,5 @@ def _meshes(report: CheckReport) -> Table:
     for mesh in sorted(report.meshes, key=lambda mesh: _ORDER.index(mesh.status)):
         cells = [f"{mesh.count(status):,}" for status in (PASS, FAIL, NOT_APPLICABLE)]
         row = ["", "", "", ""] if mesh.status == ERROR else [*cells, f"{len(mesh.warnings):,}"]
-        table.add_row(escape(printable(mesh.path)), _MARKS[mesh.status], *row)
+        table.add_row(escape(printable(mesh.path)), MARKS[mesh.status], *row)
     return table

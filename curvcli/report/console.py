@@ -1,8 +1,18 @@
-"""The console that reports are printed on."""
+"""The console that reports are printed on, and how it marks what passed and what did not."""
 
 from __future__ import annotations
 
+from typing import TextIO
+
 import rich.console
+
+# By the status of a check.
+MARKS = {
+    "pass": "[green]pass[/green]",
+    "fail": "[bold red]FAIL[/bold red]",
+    "error": "[bold red]ERROR[/bold red]",
+    "not_applicable": "[dim]n/a[/dim]",
+}
 
 
 class Console(rich.console.Console):
@@ -14,3 +24,11 @@ class Console(rich.console.Console):
     def on_broken_pipe(self) -> None:
         """Called while the BrokenPipeError is handled."""
         raise
+
+
+def report_console(least: int = 0, stream: TextIO | None = None) -> Console:
+    """A console on stdout, or on a stream; least: how wide it is at least where no terminal folds what it prints."""
+    console = Console(file=stream, highlight=False)
+    if least and not console.is_terminal:
+        console.width = max(console.width, least)
+    return console

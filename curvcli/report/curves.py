@@ -12,7 +12,7 @@ from .._version import __version__
 from ..curves.identities import Identity
 from ..curves.measure import CurveMeasures
 from ..loading.model import Labels
-from .model import CheckRow, Input, Remark
+from .model import CheckRow, Input, Remark, input_of, remarks
 
 Vector = list[float | None]
 
@@ -75,17 +75,11 @@ def model(measures: CurveMeasures, *, weld: str = "none", unit: str | None = Non
     return CurveReport(
         schema_version=1,
         curvcli=__version__,
-        input=Input(
-            path=file.path if file else None,
-            sha256=file.sha256 if file else None,
-            format=file.format if file else None,
-            vertices=file.xyz.shape[1] if file else 0,
-            polygons=file.polygons if file else 0,
-        ),
+        input=input_of(file, file.xyz.shape[1] if file else 0, 0),
         conventions={"weld": weld, "unit": unit, "max_writhe": measures.max_writhe},
         curves=rows(measures),
         checks=[row for identity in measures.identities for row in _checks(identity)],
-        warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in measures.notices],
+        warnings=remarks(measures.notices),
     )
 
 

@@ -6,11 +6,9 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from .console import Console
+from .console import MARKS, report_console
 from .curves import CurveReport, CurveRow
 from .model import CheckRow
-
-_MARKS = {"pass": "[green]pass[/green]", "fail": "[bold red]FAIL[/bold red]", "not_applicable": "[dim]n/a[/dim]"}
 
 # Curves that are shown unless more is asked for with -v.
 SHOWN = 20
@@ -18,9 +16,7 @@ SHOWN = 20
 
 def show(report: CurveReport, verbose: int = 0) -> None:
     """Print a table of the curves and what holds along them; rich where stdout is a terminal, plain in a pipe."""
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = max(console.width, 120)
+    console = report_console(120)
     boundary = sum(row.kind == "boundary" for row in report.curves)
     words = f"{boundary:,} boundary curves, {len(report.curves) - boundary:,} polylines"
     console.print(f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {words}")
@@ -62,7 +58,7 @@ def _checks(checks: list[CheckRow], verbose: int) -> Table:
     listed = checks if verbose else [row for name in dict.fromkeys(c.name for c in checks) for row in _of(checks, name)]
     for row in listed:
         numbers = (_number(row.residual, 2), _number(row.tolerance, 2))
-        table.add_row(row.name, row.scope, _MARKS[row.status], *numbers, escape(row.detail))
+        table.add_row(row.name, row.scope, MARKS[row.status], *numbers, escape(row.detail))
     return table
 
 

@@ -14,7 +14,7 @@ from rich.table import Table
 from .._version import __version__
 from ..cell_differences import MovedColumn
 from ..differences import Difference, Tolerance
-from .console import Console
+from .console import report_console
 
 # Rows of the summary; all with -v.
 _SHOWN = 40
@@ -120,9 +120,7 @@ def table(found: Comparison) -> dict[str, Any]:
 
 def show(found: Comparison, verbose: int = 0) -> None:
     """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = max(console.width, 120)
+    console = report_console(120)
     console.print(f"A [bold]{escape(found.a.path)}[/bold] ({found.a.kind})")
     console.print(f"B [bold]{escape(found.b.path)}[/bold] ({found.b.kind})")
     for note in found.notes:

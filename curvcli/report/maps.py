@@ -12,14 +12,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
-from .console import Console
-from .model import CheckRow, Input, Remark
+from .console import MARKS, report_console
+from .model import CheckRow, Input, Remark, input_of, remarks
 
 if TYPE_CHECKING:
     from ..maps import SurfaceMap
-    from ..surface import Surface
-
-_MARKS = {"pass": "[green]pass[/green]", "fail": "[bold red]FAIL[/bold red]", "not_applicable": "[dim]n/a[/dim]"}
 
 
 class Range(msgspec.Struct):
@@ -61,15 +58,15 @@ def model(f: SurfaceMap) -> MapReport:
     return MapReport(
         schema_version=1,
         curvcli=__version__,
-        source=_input(f.source),
-        image=_input(f.image),
+        source=input_of(f.source.file, f.source.n_vertices, f.source.n_faces),
+        image=input_of(f.image.file, f.image.n_vertices, f.image.n_faces),
         totals={name: _plain(value) for name, value in f.totals.items()},
         sigma_1=_range(f.sigma_1),
         sigma_2=_range(f.sigma_2),
         nonconformality=_range(f.nonconformality),
         harmonic=Harmonic(_plain(residual), vertex, _plain(rounding)),
         checks=[CheckRow(**vars(check)) for check in f.checks],
-        warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in notices],
+        warnings=remarks(notices),
     )
 
 
@@ -82,9 +79,7 @@ def build(f: SurfaceMap) -> dict[str, Any]:
 def show(f: SurfaceMap) -> None:
     """Print the summary of a map to stdout; rich where it is a terminal, plain text in a pipe."""
     report = model(f)
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = max(console.width, 100)
+    console = report_console(100)
     names = (escape(side.path or "arrays in memory") for side in (report.source, report.image))
     console.print(f"[bold]{' → '.join(names)}[/bold]  V {f.source.n_vertices:,}  F {f.source.n_faces:,}")
     for remark in report.warnings:
@@ -92,9 +87,7 @@ def show(f: SurfaceMap) -> None:
     console.print(_quantities(report))
     checks = _table("check", "status", "residual", "allowed", "detail")
     for row in report.checks:
-        checks.add_row(
-            row.name, _MARKS[row.status], _text(row.residual, 2), _text(row.tolerance, 2), escape(row.detail)
-        )
+        checks.add_row(row.name, MARKS[row.status], _text(row.residual, 2), _text(row.tolerance, 2), escape(row.detail))
     console.print(checks)
 
 
@@ -118,14 +111,6 @@ def _where(harmonic: Harmonic) -> str:
     if harmonic.vertex is None:
         return "max |∇_p E(f)|: no vertex off the boundary"
     return f"max |∇_p E(f)|, at vertex {harmonic.vertex}; rounding explains {_text(harmonic.rounding, 2)}"
-
-
-def _input(surface: Surface) -> Input:
-    file = surface.file
-    polygons = file.polygons if file else surface.n_faces
-    if file is None:
-        return Input(None, None, None, surface.n_vertices, polygons)
-    return Input(file.path, file.sha256, file.format, surface.n_vertices, polygons)
 
 
 def _range(values: np.typing.NDArray[np.float64]) -> Range:

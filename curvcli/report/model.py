@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from ..declare import passes
+from ..errors import Notice
 from .statistics import ColumnStatistics
+
+if TYPE_CHECKING:
+    from ..loading.model import MeshFile
 
 Value = float | list[float | None] | None
 
@@ -109,6 +114,18 @@ class Remark(msgspec.Struct):
     message: str
     hint: str | None
     examples: list[int]
+
+
+def remarks(notices: Iterable[Notice]) -> list[Remark]:
+    """What a report says of notices."""
+    return [Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in notices]
+
+
+def input_of(file: MeshFile | None, vertices: int, faces: int) -> Input:
+    """What a report says of the file; vertices: rows of the table, faces: the polygons where there is no file."""
+    if file is None:
+        return Input(None, None, None, vertices, faces)
+    return Input(file.path, file.sha256, file.format, vertices, file.polygons)
 
 
 class Report(msgspec.Struct, omit_defaults=True, kw_only=True):

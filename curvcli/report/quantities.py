@@ -13,7 +13,7 @@ from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
 from ..errors import UsageError
 from ..pipeline import in_order, load_passes, resolve
 from .advice import plain
-from .console import Console
+from .console import report_console
 from .fitting import fitting, plain_table
 
 _PLAIN = str.maketrans("", "", "*")
@@ -106,7 +106,7 @@ def listing() -> None:
     """Print a table of all quantities."""
     headers = ("name", "symbol", "on", "kind", "unit")
     tables = [_listed(headers[:count]) for count in (5, 4, 3, 2)]
-    console = Console(highlight=False, soft_wrap=False)
+    console = report_console()
     console.print(fitting(console, tables))
     console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]\n")
     console.print(escape(plain()), soft_wrap=True, end="")
@@ -148,7 +148,7 @@ def describe(name: str) -> None:
         value = ", ".join(shown[key]) if isinstance(shown[key], list) else shown[key]
         if value:
             table.add_row(label, value.replace("[", r"\["))
-    Console(highlight=False).print(table)
+    report_console().print(table)
 
 
 def _reversed(quantity: Quantity) -> str:

@@ -9,7 +9,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..samples import specs
-from .console import Console
+from .console import report_console
 
 if TYPE_CHECKING:
     from ..samples.model import Sample, SampleSpec
@@ -22,7 +22,7 @@ def listing() -> None:
     table.add_column("surface")
     for spec in specs():
         table.add_row(spec.name, escape(spec.summary))
-    console = Console(highlight=False)
+    console = report_console()
     console.print(table)
     console.print("[dim]`curvcli sample NAME` tells what is known about one; -o FILE writes it[/dim]")
 
@@ -42,7 +42,7 @@ def describe(spec: SampleSpec, made: Sample) -> None:
         for key, value in known.items():
             table.add_row(label, f"{key} = {_shown(value)}")
             label = ""
-    Console(highlight=False).print(table)
+    report_console().print(table)
 
 
 def _shown(value: Any) -> str:

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from ..settings import in_words
 from .build import model
-from .console import Console
+from .console import MARKS, report_console
 from .fitting import add_numbers, fitting, plain_table
 from .model import CheckRow, Report
 from .proof import holds, proof
@@ -19,7 +19,6 @@ from .words import shape
 if TYPE_CHECKING:
     from ..analysis import Analysis
 
-_MARKS = {"pass": "[green]pass[/green]", "fail": "[bold red]FAIL[/bold red]", "not_applicable": "[dim]n/a[/dim]"}
 _ORDER = {"fail": 0, "pass": 1, "not_applicable": 2}
 # Least widths of a column of sentences, and of one of names that are folded.
 _DETAIL, _NAME = 20, 14
@@ -30,7 +29,7 @@ _PLAIN = 1e6
 def show(analysis: Analysis, verbose: int = 0) -> None:
     """Print the summary of an analysis to stdout; rich where it is a terminal, plain text in a pipe."""
     report = model(analysis)
-    console = Console(highlight=False)
+    console = report_console()
     console.print(
         f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {_shape(report)}",
         soft_wrap=not console.is_terminal,
@@ -79,11 +78,11 @@ def _checks(rows: list[CheckRow], verbose: int) -> Iterator[Table]:
             numbers = (_number(row.residual), _number(row.tolerance)) if tested else ("", "")
             name = row.name if wide or row.status == "pass" else f"{row.name}\n  {escape(row.detail)}"
             scope = (escape(row.scope),) if scoped else ()
-            table.add_row(name, *scope, _MARKS[row.status], *numbers, *((escape(row.detail),) if wide else ()))
+            table.add_row(name, *scope, MARKS[row.status], *numbers, *((escape(row.detail),) if wide else ()))
         if hidden:
             told = f"[dim]{hidden:,} more on {pieces}, none failed; -v[/dim]"
             first = "[dim]…[/dim]" if wide else told
-            table.add_row(first, *(("",) if scoped else ()), _MARKS["pass"], "", "", *((told,) if wide else ()))
+            table.add_row(first, *(("",) if scoped else ()), MARKS["pass"], "", "", *((told,) if wide else ()))
         if not wide:
             table.columns[0].no_wrap, table.columns[0].min_width = False, _NAME
         yield table

@@ -36,7 +36,7 @@ def analysed(name: str) -> Analysis:
 def shown(analysis: Analysis, width: int, monkeypatch: pytest.MonkeyPatch, *, terminal: bool = True) -> str:
     stream = io.StringIO()
     made = Console(file=stream, width=width, force_terminal=terminal, color_system=None, highlight=False)
-    monkeypatch.setattr(text, "Console", lambda **options: made)
+    monkeypatch.setattr(text, "report_console", lambda: made)
     text.show(analysis)
     return stream.getvalue()
 
