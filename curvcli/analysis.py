@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import cached_property
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,6 @@ from .surface import Surface
 from .totals import lost, lost_totals, totals
 
 Array = NDArray[Any]
-Found = TypeVar("Found")
 
 # Checks of components and regions are listed one by one up to this many; beyond, those that fail.
 LISTED_GROUPS = 100
@@ -57,7 +56,6 @@ class Analysis:
         self.settings = settings
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
-        self._worked_out: dict[str, Any] = {}
         self._rules = self._applicable_rules() if checks is None else [rules[name] for name in checks]
         wanted = {
             *chosen,
@@ -182,13 +180,6 @@ class Analysis:
         return found
 
     # ------------------------------------------------------------------ outputs
-
-    def once(self, name: str, work_out: Callable[[], Found]) -> Found:
-        """What several reports say, worked out for the first of them."""
-        if name not in self._worked_out:
-            self._worked_out[name] = work_out()
-        found: Found = self._worked_out[name]
-        return found
 
     def report(self) -> dict[str, Any]:
         """The report of the interface, as plain Python values ready for JSON."""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import wraps
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +10,11 @@ from numpy.typing import NDArray
 from .blocks import by_corner, face_blocks
 from .groups import Groups
 from .loading.weld import position_keys, weld_exact
+from .once import once
 from .surface import Surface
 
 Counts = NDArray[np.int64]
 Mask = NDArray[np.bool_]
-Found = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -39,11 +37,7 @@ class Census:
 
 def census(surface: Surface, groups: Groups) -> Census:
     """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
-    cache: dict[int, tuple[Groups, Census]] = surface.__dict__.setdefault("_census", {})
-    if id(groups) not in cache:
-        # The groups are kept too: another object may get the number of one that is gone.
-        cache[id(groups)] = groups, _count(surface, groups)
-    return cache[id(groups)][1]
+    return once(groups, "census", lambda: _count(surface, groups))
 
 
 def _count(surface: Surface, groups: Groups) -> Census:
@@ -108,24 +102,12 @@ def classify(surface: Surface, groups: Groups) -> Classification:
     )
 
 
-def _once(find: Callable[[Surface], Found]) -> Callable[[Surface], Found]:
-    """Remember what was found on a surface: notices, requirements and the report all ask for it."""
-
-    @wraps(find)
-    def remembered(surface: Surface) -> Found:
-        kept = surface.__dict__.setdefault("_found", {})
-        if find.__name__ not in kept:
-            kept[find.__name__] = find(surface)
-            kept[find.__name__].setflags(write=False)
-        found: Found = kept[find.__name__]
-        return found
-
-    return remembered
-
-
-@_once
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     """Referenced vertices beyond the first at exactly the same position."""
+    return once(surface, "duplicate_vertices", lambda: _duplicate_vertices(surface))
+
+
+def _duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     suspects = np.flatnonzero(_shared_keys(position_keys(surface.xyz_given)) & surface.referenced)
     first, _ = weld_exact(surface.xyz_given[:, suspects])
     again = np.ones(len(suspects), bool)
@@ -133,9 +115,12 @@ def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     return suspects[again]
 
 
-@_once
 def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     """Faces beyond the first with the same three corners in any order."""
+    return once(surface, "duplicate_faces", lambda: _duplicate_faces(surface))
+
+
+def _duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
     keys = np.empty(surface.n_faces, np.uint64)
     for block in face_blocks(surface.n_faces):

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..blocks import cross
+from ..once import once
 from ..surface import Surface
 from .boundary import Boundary, boundary_loops
 from .darboux import Darboux
@@ -21,10 +22,7 @@ LOOP_WRITHE_EDGES = 2_000
 
 def boundary_of(surface: Surface) -> Boundary:
     """The boundary curves of a surface, found once."""
-    cache: dict[str, Boundary] = surface.__dict__.setdefault("_boundary_curves", {})
-    if "boundary" not in cache:
-        cache["boundary"] = boundary_loops(surface)
-    return cache["boundary"]
+    return once(surface, "boundary", lambda: boundary_loops(surface))
 
 
 def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from .._version import __version__
 from ..census import census, classify, duplicate_faces, duplicate_vertices
 from ..declare import passes
 from ..groups import Groups
+from ..once import once
 from ..surface import Surface
 from ..totals import competing_normals, constant_mean_curvature, steiner
 from .model import (
@@ -44,7 +45,7 @@ def build(analysis: Analysis) -> dict[str, Any]:
 def model(analysis: Analysis) -> Report:
     """The report of an analysis."""
     surface, file = analysis.surface, analysis.surface.file
-    whole = analysis.once("whole", lambda: pieces(analysis, surface.whole)[0])
+    whole = once(analysis, "whole", lambda: pieces(analysis, surface.whole)[0])
     conventions = analysis.conventions
     return Report(
         schema_version=1,
@@ -63,10 +64,10 @@ def model(analysis: Analysis) -> Report:
         cmc=whole.cmc,
         minimal=whole.minimal,
         normals=whole.normals,
-        components=analysis.once("components", lambda: _components(analysis, whole)),
-        loops=analysis.once("loops", lambda: loops(analysis)),
-        regions=analysis.once("regions", lambda: _regions(analysis)),
-        columns=analysis.once("columns", lambda: _columns(analysis)),
+        components=once(analysis, "components", lambda: _components(analysis, whole)),
+        loops=once(analysis, "loops", lambda: loops(analysis)),
+        regions=once(analysis, "regions", lambda: _regions(analysis)),
+        columns=once(analysis, "columns", lambda: _columns(analysis)),
         checks=[CheckRow(**vars(check)) for check in analysis.checks],
         warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
         timings=analysis.timings,
