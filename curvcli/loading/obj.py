@@ -47,7 +47,7 @@ def _read(lines: ObjLines, max_faces: int | None, normals: bool) -> MeshFile:
     labels = _statements(lines, is_v | is_f | is_l, notices)
     xyz, colours = _vertices(lines, is_v, notices)
     corners, sizes = _corners(lines, is_f, is_v)
-    given = corner_normals(lines, is_f, corners, xyz.shape[1]) if normals else None
+    given = corner_normals(lines, is_f, corners, xyz.shape[1]) if normals and is_f.any() else None
     count = int(np.count_nonzero(is_f))
     keep = sizes >= 3 if isinstance(sizes, np.ndarray) else np.full(count, sizes >= 3)
     if not keep.all():

@@ -124,6 +124,17 @@ def test_what_was_brought_instead_of_the_file(tmp_path: Path, told: str, data: b
     assert refused(path).startswith(f"{path}: {message}a mesh expected; ")
 
 
+@pytest.mark.parametrize("normals", ["mesh", "file"])
+def test_points_with_normals_are_no_surface(normals: str) -> None:
+    data = b"v 0 0 0\nvn 0 0 1\nv 1 0 0\nvn 0 0 1\nv 0 1 0\nvn 0 0 1\n"
+    assert refused(io.BytesIO(data), input_format="obj", normals=normals).startswith("-: no faces; ")
+    assert refused(io.BytesIO(data + b"f\nf 1//1 2//2\n"), input_format="obj", normals=normals).startswith(
+        "-: no faces; "
+    )
+    curve = read_mesh_file(io.BytesIO(data + b"l 1 2 3\n"), input_format="obj", normals=normals)
+    assert [line.tolist() for line in curve.polylines] == [[0, 1, 2]]
+
+
 def test_utf_16(tmp_path: Path) -> None:
     """Also without a byte-order mark: with zeros for blanks, `10` would be read as two numbers."""
     for kind in ("obj", "ply", "stl"):
