@@ -13,7 +13,7 @@ from ..exits import FAILED_CHECK, OK, exit_code, worst
 from ..memory import ran_out
 from . import options
 from .talk import internal, say
-from .wanted import table_option
+from .wanted import one_stdout, stdin_once, table_option
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -44,14 +44,12 @@ if TYPE_CHECKING:
 @options.regions
 @options.reading
 @options.estimating
-@click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+@options.as_json
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of the report and stop.")
-@click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
+@options.stream_format
 @options.drawing
-@click.option(
-    "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
-)
+@options.precision
 @options.force
 @options.strict
 @options.talking
@@ -74,8 +72,7 @@ def command(meshes: tuple[str, ...], as_json: bool, get: str | None, schema: boo
         return 0
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
-    if as_json and get is not None:
-        raise click.UsageError("--json and --get both want stdout; choose one", click.get_current_context())
+    stdin_once(meshes)
     return Run(meshes, as_json, get, **settings).all()
 
 
@@ -127,9 +124,7 @@ class Run:
             format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
             if kind == "regions" and conventions["regions"] is None:
                 raise UsageError("--table regions: there are none without --regions")
-        self.to_stdout = "-" in [*outputs, *(path for _, path in kinds)]
-        if self.to_stdout and (as_json or get is not None):
-            raise UsageError("-o - and --json or --get both want stdout; choose one")
+        self.to_stdout = one_stdout([*outputs, *(path for _, path in kinds)], as_json, get, stream_format)
 
     def all(self) -> int:
         """Analyse every mesh; one bad mesh does not stop the rest."""

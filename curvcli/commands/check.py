@@ -14,6 +14,7 @@ from ..exits import exit_code, worst
 from ..memory import ran_out
 from . import options
 from .talk import internal, say
+from .wanted import stdin_once
 
 if TYPE_CHECKING:
     from ..report.check import CheckedMesh, CheckReport
@@ -69,7 +70,7 @@ def command(meshes: tuple[str, ...], schema: bool, **settings: Any) -> int:
 
     \b
       curvcli check bunny.ply
-      curvcli check parts/*.stl --require closed,outward --format junit -o check.xml
+      curvcli check parts/*.stl --require closed,outward -o check.xml
       curvcli check torus.obj --require genus=1 --assert 'absmax(h_signed) <= 50'
       curvcli check scan.ply --allow manifold,no-degenerate
     """
@@ -80,6 +81,7 @@ def command(meshes: tuple[str, ...], schema: bool, **settings: Any) -> int:
         return 0
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
+    stdin_once(meshes)
     return Run(meshes, **settings).all()
 
 

@@ -66,12 +66,10 @@ _CONVENTIONS = (
     help="With --map: write a table, KIND faces (singular values, non-conformality) or vertices (harmonic residual); "
     "repeatable.",
 )
-@click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+@options.as_json
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.nonconformality.")
-@click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
-@click.option(
-    "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
-)
+@options.stream_format
+@options.precision
 @options.passes
 @options.regions
 @options.estimating
@@ -114,8 +112,6 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
         if name in settings and context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             flag = next(p for p in context.command.params if p.name == name).opts[-1]
             raise click.UsageError(f"{flag} goes {'without' if as_map else 'with'} --map", context)
-    if settings["as_json"] + (settings["get"] is not None) > 1:
-        raise click.UsageError("--json and --get both want stdout; choose one", context)
     if a == "-" == b:
         raise click.UsageError("A and B cannot both be stdin; give one of them a path", context)
     if not as_map:
@@ -148,7 +144,7 @@ def compare_map(
     from ..output.tables import parse_precision
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
-    to_stdout = one_stdout(wanted, as_json, get)
+    to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
     parse_precision(precision)
     welding = options.welding(weld)
 

@@ -13,6 +13,7 @@ from ..exits import FAILED_CHECK, OK
 from . import options
 from .against_exact import accuracy, is_exact
 from .sides import Read, both_sides, kind_of, stored_side
+from .wanted import one_stdout
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
@@ -55,8 +56,7 @@ def compare(
     from ..report.model import encode
 
     formats = [format_of(p, name=stream_format if p == "-" else None, kinds=("table", "report")) for p in outputs]
-    if "-" in outputs and (as_json or get is not None):
-        raise UsageError("-o - and --json or --get both want stdout; choose one")
+    to_stdout = one_stdout(outputs, as_json, get, stream_format)
     parse_precision(precision)
     conventions["weld"] = options.welding(conventions["weld"])
     limits = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
@@ -80,7 +80,7 @@ def compare(
             sys.stdout.buffer.write(encode(msgspec.to_builtins(found)))
         elif get is not None:
             click.echo(look_up(msgspec.to_builtins(found), get))
-        elif not quiet and "-" not in outputs:
+        elif not quiet and not to_stdout:
             report.show(found, verbose)
     return OK if found.equal else FAILED_CHECK
 

@@ -111,6 +111,12 @@ def _plain_formats() -> list[str]:
     return [suffix[1:] for suffix in suffixes(("table", "report"))]
 
 
+def _sample_formats() -> list[str]:
+    from ..output.formats import suffixes
+
+    return [suffix[1:] for suffix in suffixes(("table", "mesh", "triangles"))]
+
+
 def _topics() -> list[str]:
     from .main import COMMANDS
     from .topics import TOPICS
@@ -135,6 +141,7 @@ _KNOWN: dict[tuple[str, str], Known] = {
     ("passes", "name"): _quantities,
     ("sample", "name"): _samples,
     ("sample", "settings"): _parameters,
+    ("sample", "stream_format"): _sample_formats,
 }
 
 _FILES = ("MESH", "FILE", "PATH", "PATTERN", "LIST", "A", "B")

@@ -17,9 +17,9 @@ def command() -> None:
     shell gets one marked block at its end and is otherwise left as it is.
 
     \b
-      curvcli completion install           write what the shell needs; again is harmless
-      curvcli completion show zsh          the script itself
-      curvcli completion remove            take everything away again
+      curvcli completion install     write what the shell needs; again is harmless
+      curvcli completion show zsh    the script itself
+      curvcli completion remove      take everything away again
     """
 
 

@@ -35,9 +35,9 @@ TABLES = ("curves", "vertices")
     multiple=True,
     help="Write a table, KIND curves (a row per curve) or vertices (as -o); repeatable.",
 )
-@click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+@options.as_json
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as curves.0.writhe.")
-@click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
+@options.stream_format
 @click.option(
     "--max-writhe",
     metavar="N",
@@ -46,9 +46,7 @@ TABLES = ("curves", "vertices")
     show_default=True,
     help="Largest double sum, in edges: the writhe of curves beyond it, smallest first, is left undefined.",
 )
-@click.option(
-    "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
-)
+@options.precision
 @options.weld
 @options.unit
 @options.input_format
@@ -69,8 +67,6 @@ def command(file: str, **settings: Any) -> int:
       curvcli curves knot.obj --get curves.0.writhe
       curvcli curves mesh.ply -o points.csv --table curves=loops.csv
     """
-    if settings["as_json"] and settings["get"] is not None:
-        raise click.UsageError("--json and --get both want stdout; choose one", click.get_current_context())
     return measure(file, **settings)
 
 
@@ -97,7 +93,7 @@ def measure(
     from ..output.tables import parse_precision
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
-    to_stdout = one_stdout(wanted, as_json, get)
+    to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
     parse_precision(precision)
     welding = options.welding(weld)
 

@@ -106,10 +106,10 @@ def cli(config: str | None) -> None:
     \b
       curvcli analyze bunny.obj                      a summary with its checks
       curvcli analyze bunny.obj -o k.csv -o k.ply    a table and a coloured mesh
-      curvcli check bunny.obj --require closed       what holds and what fails, as an exit code
+      curvcli check bunny.obj --require closed       what holds and what fails
       curvcli passes                                 every quantity there is
       curvcli sample torus -o torus.ply              a surface to try it on
-      curvcli help                                   topics: conventions, checks, formats, exit codes
+      curvcli help                                   topics, such as conventions
     """
 
 

@@ -42,6 +42,11 @@ def _schema(context: click.Context, option: click.Parameter, value: bool) -> Non
         context.exit()
 
 
+as_json = click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+stream_format = click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
+precision = click.option(
+    "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
+)
 schema = click.option(
     "--schema",
     is_flag=True,

@@ -8,10 +8,11 @@ import click
 
 from . import options
 from .talk import say
+from .wanted import one_stdout
 
 if TYPE_CHECKING:
+    from ..output.formats import Kind
     from ..samples.model import Sample, SampleSpec
-
 
 _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
 
@@ -25,13 +26,13 @@ _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
     metavar="PATH",
     multiple=True,
     help="Write .obj .ply .stl .vtp .vtu .glb (the mesh; .ply .vtp .vtu with exact curvatures) or .csv .tsv .parquet "
-    ".npz (their table); "
-    "repeatable.",
+    ".npz (their table); repeatable. `-` is stdout.",
 )
 @click.option("--size", type=click.IntRange(4), help="Wanted number of vertices, about.")
 @click.option("--scale", type=float, default=1.0, show_default=True, help="Multiply all lengths.")
 @click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, help="A parameter of the surface.")
 @click.option("--ascii", "ascii_stl", is_flag=True, help="Write .stl as text, which keeps doubles.")
+@options.stream_format
 @options.force
 @options.talking
 def command(
@@ -41,6 +42,7 @@ def command(
     scale: float,
     settings: tuple[str, ...],
     ascii_stl: bool,
+    stream_format: str | None,
     force: bool,
     quiet: bool,
     verbose: int,
@@ -56,6 +58,7 @@ def command(
     from ..report.samples import describe, listing
     from ..samples import get
 
+    one_stdout(outputs, False, None, stream_format)
     if name is None:
         if outputs:
             raise click.UsageError("no NAME given for the outputs", click.get_current_context())
@@ -70,7 +73,7 @@ def command(
             raise click.UsageError(f"{spec.name} has no size: it is always the same mesh", click.get_current_context())
         values["size"] = size
     if outputs:
-        _write(spec, values, scale, outputs, ascii_stl, force)
+        _write(spec, values, scale, outputs, stream_format, ascii_stl, force, quiet)
     else:
         describe(spec, spec(**values).scaled(scale))
 
@@ -90,21 +93,24 @@ def _write(
     values: dict[str, Any],
     scale: float,
     outputs: tuple[str, ...],
+    stream_format: str | None,
     ascii_stl: bool,
     force: bool,
+    quiet: bool,
 ) -> None:
     from ..output.atomic import Outputs
     from ..output.formats import format_of
 
-    kinds = {path: format_of(path, kinds=("table", "mesh", "triangles")) for path in outputs}
+    kinds: tuple[Kind, ...] = ("table", "mesh", "triangles")
+    formats = [format_of(path, name=stream_format if path == "-" else None, kinds=kinds) for path in outputs]
     with Outputs(outputs, force) as files:
         made = spec(**values).scaled(scale)
-        for path, kind in kinds.items():
+        for path, one in zip(outputs, formats, strict=True):
             with files.open(path) as stream:
-                _write_one(stream, made, kind.suffix, ascii_stl)
+                _write_one(stream, made, one.suffix, ascii_stl, quiet)
 
 
-def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool) -> None:
+def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool, quiet: bool) -> None:
     import numpy as np
 
     from ..output.formats import suffixes
@@ -124,7 +130,8 @@ def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool) -> None:
         for notice in write_mesh(
             stream, suffix, made.points, made.faces, vertex_properties=properties, comments=comments
         ):
-            say(notice.message)
+            if not quiet:
+                say(notice.message)
     else:
         index = {"vertex": np.arange(len(made.points), dtype=np.int32)}
         write_table(stream, index | dict(zip("xyz", made.points.T, strict=True)) | made.exact, suffix)

@@ -1,12 +1,13 @@
-"""Which outputs a command is to write, from -o, --table and --format."""
+"""Which streams and outputs a command is to read and to write, from its meshes, -o, --table, --format and --json."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from ..errors import UsageError
 
@@ -56,12 +57,23 @@ def tables_and_reports(
     return found
 
 
-def one_stdout(wanted: list[Wanted], as_json: bool, get: str | None) -> bool:
+def one_stdout(paths: Iterable[str], as_json: bool, get: str | None, stream_format: str | None) -> bool:
     """Whether an output goes to stdout.
 
-    Errors: click.UsageError when --json or --get wants it too.
+    Errors: click.UsageError when two things want stdout, or a format is typed for an output that is not there.
     """
-    taken = any(one.path == "-" for one in wanted)
+    context = click.get_current_context()
+    taken = "-" in paths
+    if as_json and get is not None:
+        raise click.UsageError("--json and --get both want stdout; choose one", context)
     if taken and (as_json or get is not None):
-        raise click.UsageError("-o - and --json or --get both want stdout; choose one", click.get_current_context())
+        raise click.UsageError("-o - and --json or --get both want stdout; choose one", context)
+    if not taken and context.get_parameter_source("stream_format") is ParameterSource.COMMANDLINE:
+        raise click.UsageError(f"--format {stream_format} names the format of `-o -`, which is not given", context)
     return taken
+
+
+def stdin_once(meshes: Sequence[str]) -> None:
+    """Errors: click.UsageError where `-` stands for several meshes: what has been read is gone."""
+    if meshes.count("-") > 1:
+        raise click.UsageError("`-` is given twice, but stdin can be read once only", click.get_current_context())

@@ -49,6 +49,21 @@ def test_every_format_goes_to_stdout(format: str, tmp_path: Path) -> None:
         assert done.stdout.startswith(b"{")
 
 
+def test_a_sample_goes_to_stdout_and_on(tmp_path: Path) -> None:
+    line = served("sample", "cube", "-o", "-", "--format", "ply")
+    done = subprocess.run(line, capture_output=True, env=environment(), timeout=120)
+    assert (done.returncode, done.stderr) == (0, b"")
+    wrote(curvcli("sample", "cube", "-o", tmp_path / "cube.ply"))
+    assert done.stdout == (tmp_path / "cube.ply").read_bytes()
+    ended = curvcli("analyze", "-", "--input-format", "ply", "--get", "topology.faces", given=done.stdout)
+    assert ended == (0, "12\n", "")
+
+
+def test_a_quiet_sample_says_nothing(tmp_path: Path) -> None:
+    assert "float32" in curvcli("sample", "octahedron", "-o", tmp_path / "one.stl").err
+    assert curvcli("sample", "octahedron", "-q", "-o", tmp_path / "two.stl") == (0, "", "")
+
+
 @pytest.mark.parametrize(
     "options",
     [
