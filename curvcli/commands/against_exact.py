@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, UsageError
+from ..plurals import counted
 from .sides import Read, analysed_side
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def accuracy(
     rows = len(next(iter(cells.values())))
     if rows != surface.n_vertices:
         raise InputError(
-            f"{rows:,} rows found, {surface.n_vertices:,} expected, one for each vertex of {path}",
+            f"{counted(rows, 'row')} found, {surface.n_vertices:,} expected, one for each vertex of {path}",
             path=exact.side.path,
             hint="`curvcli sample NAME -o MESH.ply -o EXACT.csv` writes both for the same vertices",
         )

@@ -13,6 +13,7 @@ import click
 
 from ..errors import UsageError
 from ..exits import worst
+from ..plurals import counted
 from . import options
 from .talk import say
 
@@ -205,7 +206,7 @@ def _tell(batch: Batch, begun: int) -> None:
     console.print(table)
     missing = len(batch.items) - len(batch.rows)
     kept = len(batch.items) - begun
-    parts = [f"{len(batch.rows):,} of {len(batch.items):,} meshes"]
+    parts = [f"{len(batch.rows):,} of {counted(len(batch.items), 'mesh', 'meshes')}"]
     parts += [f"{kept:,} unchanged since an earlier run"] * bool(kept)
     parts += [f"{missing:,} left for --resume"] * bool(missing)
     console.print(f"{', '.join(parts)}; {os.path.join(batch.folder, 'summary.csv')}", soft_wrap=True)

@@ -12,6 +12,7 @@ import click
 from ..errors import CurvcliError, UsageError
 from ..exits import exit_code, worst
 from ..memory import ran_out
+from ..plurals import counted
 from . import options
 from .talk import internal, say
 from .wanted import stdin_once
@@ -195,7 +196,7 @@ class Run:
             for line in failed[:_TOLD]:
                 say(line)
             if len(failed) > _TOLD:
-                say(f"{len(failed) - _TOLD:,} more failures are in {self.output}")
+                say(f"{counted(len(failed) - _TOLD, 'more failure is', 'more failures are')} in {self.output}")
 
 
 def _writer(report_format: str, verbose: int) -> Callable[[CheckReport], bytes]:

@@ -6,6 +6,7 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
+from ..plurals import counted
 from .console import MARKS, report_console
 from .curves import CurveReport, CurveRow
 from .model import CheckRow
@@ -18,14 +19,15 @@ def show(report: CurveReport, verbose: int = 0) -> None:
     """Print a table of the curves and what holds along them; rich where stdout is a terminal, plain in a pipe."""
     console = report_console(120)
     boundary = sum(row.kind == "boundary" for row in report.curves)
-    words = f"{boundary:,} boundary curves, {len(report.curves) - boundary:,} polylines"
+    words = f"{counted(boundary, 'boundary curve')}, {counted(len(report.curves) - boundary, 'polyline')}"
     console.print(f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {words}")
     for remark in report.warnings:
         hint = f"; {remark.hint}" if remark.hint else ""
         console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message + hint)}")
     console.print(_curves(report.curves if verbose else report.curves[:SHOWN]))
     if len(report.curves) > SHOWN and not verbose:
-        console.print(f"[dim]{len(report.curves) - SHOWN:,} more curves; -v shows all, --json tells all of each[/dim]")
+        more = counted(len(report.curves) - SHOWN, "more curve")
+        console.print(f"[dim]{more}; -v shows all, --json tells all of each[/dim]")
     console.print(_checks(report.checks, verbose))
     told = "Σψ: total curvature; writhe in turns; holonomy ≡ 2π · writhe. "
     proves = "unknotted: Σψ ≤ 4π proves it of a curve that does not cross itself; more proves nothing."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .. import plurals
 from ..analysis import Analysis
 from ..census import duplicate_faces, duplicate_vertices
 from .base import requirement
@@ -20,7 +21,7 @@ def no_degenerate(analysis: Analysis) -> str:
     dropped = [
         counted(notice.count, f"face {what}", f"faces {what}", f"face {notice.examples[0]}")
         if notice.examples
-        else f"{notice.count:,} faces {what}"
+        else plurals.counted(notice.count, f"face {what}", f"faces {what}")
         for notice in surface.notices
         if (what := _DROPPED.get(notice.code))
     ]
