@@ -44,10 +44,10 @@ class Boundary:
     @cached_property
     def fan(self) -> Rows:
         """(n,) fan of faces at each vertex of a curve; at an open end, that of the one edge there."""
-        return self.fans.of_corners(self._corner)
+        return self.fans.of_corners(self.corner)
 
     @cached_property
-    def _corner(self) -> Rows:
+    def corner(self) -> Rows:
         """(n,) a corner at the vertex, of the face beside the edge that leaves it (at an open end, arrives)."""
         there = np.where(self.half_edge < 0, np.roll(self.half_edge, 1), self.half_edge)
         at_tail = self.forward == (self.half_edge >= 0)

@@ -69,7 +69,7 @@ class Darboux:
         # The area vector of a fan has the orientation of its star; along the curve that of the face at its edge counts.
         beside = self.boundary.half_edge
         sign = self.boundary.surface.corner_sign
-        star = 1 if sign is None else sign.ravel()[self.boundary._corner]
+        star = 1 if sign is None else sign.ravel()[self.boundary.corner]
         vector = vector * np.where(self.boundary.forward, star, -star)
         vector = np.where(dot(vector, vector) > (_FLAT * area) ** 2, vector, np.nan)
         tangent = unit(curves.tangent[:, curves.preceding] + curves.tangent)
