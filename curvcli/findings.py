@@ -98,11 +98,16 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
         "[vertex|vertices] that no face uses; [its row is|their rows are] empty",
         "nothing else depends on [it|them]; `curvcli check --require no-unreferenced` refuses such files",
     )
+    flat = np.flatnonzero(columns["degenerate_face"])
+    corners = surface.xyz[:, surface.faces[flat]]
+    together = (corners == np.roll(corners, 1, axis=2)).all(axis=0).any(axis=1)
     yield Notice.at(
         "degenerate_faces",
-        np.flatnonzero(columns["degenerate_face"]),
+        flat,
         "[face|faces] without area; the mean curvature is undefined at [its|their] corners",
-        "--weld exact drops those with two corners at one place; remesh the others",
+        "--weld exact drops those with two corners at one place; remesh the others"
+        if together.any()
+        else "remesh there: [its|their] corners lie on a line",
     )
     yield Notice.at(
         "duplicate_faces",

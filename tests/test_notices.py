@@ -95,6 +95,15 @@ def test_where_they_are_without_orientation(tmp_path: Path) -> None:
     assert found["message"].startswith("patches without orientation, named by their lowest face")
 
 
+def test_welding_is_advised_where_it_helps(tmp_path: Path) -> None:
+    for more, options, hint in (
+        (LINE, (), "remesh there: its corners lie on a line"),
+        (b"v 0 0 0\nf 1 2 5\n", (), "--weld exact drops those with two corners at one place; remesh the others"),
+        (2 * b"v 20 0 0\nf 1 2 5\n", ("--weld", "exact"), "remesh there: their corners lie on a line"),
+    ):
+        assert warnings(tmp_path, TETRAHEDRON + more, options)["degenerate_faces"]["hint"] == hint
+
+
 def test_every_warning_of_the_source_has_a_hint() -> None:
     calls = 0
     for path in SOURCES:
