@@ -37,6 +37,10 @@ def parse_ply(data: bytes, *, max_faces: int | None = None) -> MeshFile:
     check_faces(by_name["face"].count if "face" in by_name else 0, max_faces)
     notices: list[Notice] = []
     content = (read_text_rows if header.ascii else _read_binary)(data, header, notices)
+    if header.unknown:
+        message = "[line|lines] of the header that [begins|begin] with an unknown keyword, ignored"
+        place = f"the first is line {header.unknown[0]}"
+        notices.append(Notice("unknown_statements", len(header.unknown), agree(len(header.unknown), message), place))
     return _mesh(content, by_name, notices)
 
 

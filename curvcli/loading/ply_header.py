@@ -63,17 +63,20 @@ class Element:
 
 @dataclass(frozen=True)
 class Header:
-    """elements in file order, whether the body is text, where it begins, and the lines before it."""
+    """elements in file order, whether the body is text, where it begins, the lines before it, and which are unknown."""
 
     elements: tuple[Element, ...]
     ascii: bool
     body: int
     lines: int
+    unknown: tuple[int, ...] = ()
 
 
 def parse_header(data: bytes) -> Header:
     """The header of a PLY file.
 
+    Lines with an unknown keyword before the first element, such as a comment without `comment`, are ignored: no data
+    belong to them, and if one was meant to be an element, its properties stand alone.
     Errors: InputError with the line of a statement that cannot be read.
     """
     start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
@@ -88,6 +91,7 @@ def parse_header(data: bytes) -> Header:
     lines = data[magic.end() : end.start() + 1].replace(newline, b"\n").split(b"\n")[:-1]
     order: str | None = None
     elements: list[tuple[str, int, list[Property]]] = []
+    unknown: list[int] = []
     for number, line in enumerate(lines, 2):
         words = [decode(word) for word in line.split()]
         place = f"line {number}"
@@ -111,6 +115,8 @@ def parse_header(data: bytes) -> Header:
                 elements[-1][2].append(Property(name, _type(kind, order, place), length_type))
             case ["property", str(kind), str(name)] if elements and order:
                 elements[-1][2].append(Property(name, _type(kind, order, place)))
+            case [str(keyword), *_] if not elements and keyword not in ("format", "element", "property"):
+                unknown.append(number)
             case _:
                 raise InputError(f"`{' '.join(words)[:60]}` found, a PLY header statement expected", place=place)
     if order is None:
@@ -125,6 +131,7 @@ def parse_header(data: bytes) -> Header:
         order == "ascii",
         body,
         len(lines) + 2,
+        tuple(unknown),
     )
 
 

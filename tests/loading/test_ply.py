@@ -241,6 +241,9 @@ class TestRefused:
             (("vertex_indices", "corners"), "header: element `face` without a list `vertex_indices`"),
             (("list uchar int", "int"), "header: element `face` without a list `vertex_indices`"),
             (("end_header", "end"), "no `end_header` found"),
+            (("element vertex 4\n", "elements vertex 4\n"), "line 4: `property float x` found"),
+            (("element face", "elements face"), "line 7: `elements face"),
+            (("property float y", "properties float y"), "line 5: `properties float y` found"),
             (("element vertex 4\n", "element vertex\n"), "line 3: `element vertex` found, a PLY header statement"),
         ],
     )
@@ -256,6 +259,17 @@ class TestRefused:
     def test_more_faces_than_allowed(self) -> None:
         with pytest.raises(InputError, match="2 faces found, at most 1 allowed"):
             parse_ply(ascii_ply("3 0 1 2\n3 0 2 3\n"), max_faces=1)
+
+
+def test_a_comment_without_its_keyword_in_the_header() -> None:
+    """As an old exporter writes them; what belongs to no element can be no loss."""
+    for data in (ascii_ply("3 0 1 2\n"), binary_ply([(0, 1, 2)])):
+        before, after = data.split(b"element vertex", 1)
+        mesh = parse_ply(before + b"Created by hand: a.b\nComment no\nelement vertex" + after)
+        np.testing.assert_array_equal(mesh.xyz, parse_ply(data).xyz)
+        assert mesh.corners.tolist() == [0, 1, 2]
+        (notice,) = mesh.notices
+        assert (notice.code, notice.count, notice.hint) == ("unknown_statements", 2, "the first is line 3")
 
 
 def test_a_header_of_many_elements_takes_no_quadratic_time() -> None:
