@@ -20,6 +20,8 @@ _STEPS = 511
 # For undefined values: mid grey, or what is as far from a map that holds greys itself.
 _UNDEFINED = ((128, 128, 128), (255, 0, 255), (0, 255, 0))
 _APART = 16
+# Values that differ by less than this part of the largest are one value and its rounding.
+_ALIKE = 16 * np.finfo(np.float64).eps
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,8 @@ def colorize(
 
     value_range: `LO:HI`, or `pNN` for the central NN % of the values (signed: symmetric about 0, the NN-th percentile
     of their size). Default: 2nd to 98th percentile; signed: symmetric about 0, the 98th percentile of their size.
-    Where that is a single value though the values differ, as K of a finely divided cube, it is their whole range.
+    Where that is a single value, but for rounding, though the values differ, as K of a finely divided cube, it is their
+    whole range; where rounding is all by which they differ, they are one value.
     ignore: (V,) values that do not help to choose the range, unless there are no others.
     Errors: UsageError for an unknown map, with the nearest names, and for a range that is none.
     """
@@ -79,6 +82,8 @@ def colorize(
     rgb = np.empty((len(values), 3), np.uint8)
     below = above = 0
     if low is not None and high is not None:
+        if low == high:
+            values = np.where(np.abs(values - low) <= _ALIKE * abs(low), low, values)
         rgb[:] = np.take(gradient, _positions(values, low, high), axis=0)
         below, above = int((values < low).sum()), int((values > high).sum())
     rgb[nulls] = undefined
@@ -136,15 +141,23 @@ def _range(
     sample = values[chosen]
     if not len(sample):
         return None, None
+    largest = float(np.abs(sample).max())
     # A power of two takes the largest doubles out of the interpolation's reach and changes no digit.
-    scale = 0.25 if np.abs(sample).max() > 1e300 else 1.0
+    scale = 0.25 if largest > 1e300 else 1.0
+    alike = _ALIKE * largest
     if signed:
-        sizes = np.abs(sample)
-        size = float(np.percentile(sizes * scale, 98.0 if central is None else central)) / scale or float(sizes.max())
+        size = float(np.percentile(np.abs(sample) * scale, 98.0 if central is None else central)) / scale
+        size = size if size > alike else largest
         return 0.0 - size, size
     share = 96.0 if central is None else central
     first, last = (np.percentile(sample * scale, [50 - share / 2, 50 + share / 2]) / scale).tolist()
-    return (first, last) if first < last else (float(sample.min()), float(sample.max()))
+    if last / 2 - first / 2 > alike / 2:
+        return first, last
+    least, most = float(sample.min()), float(sample.max())
+    if most / 2 - least / 2 > alike / 2:
+        return least, most
+    middle = float(np.median(sample * scale)) / scale
+    return middle, middle
 
 
 def _floats(values: NDArray[Any]) -> NDArray[np.float64]:

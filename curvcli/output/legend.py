@@ -80,7 +80,9 @@ def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> st
         return f"{number(scale.low)}{behind} wherever defined"
     digits = next((d for d in range(4, 17) if number(scale.low, d) != number(scale.high, d)), 17)
     ends = f"{number(scale.low, digits)} to {number(scale.high, digits)}{behind}"
-    return f"{ends} ({range_words(value_range, scale.signed)}), cuts {' and '.join(cut) or 'nothing'}"
+    # Percentiles cut something, unless they would tell values apart by their rounding: then the range is that of all.
+    words = range_words(value_range, scale.signed) if cut or value_range is not None else "all values"
+    return f"{ends} ({words}), cuts {' and '.join(cut) or 'nothing'}"
 
 
 def sentence(colored: Colored, value_range: str | None, length: str | None) -> str:

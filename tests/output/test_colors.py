@@ -81,6 +81,27 @@ def test_a_few_values_among_equal_ones_still_make_a_range(signed: bool, expected
     assert (got.low, got.high, got.clipped_above) == (*expected, 0)
 
 
+def test_rounding_makes_no_range() -> None:
+    """K of a finely cut block is rounding but at its corners; areas of a regular grid differ in their last digits."""
+    noise = 1e-16 * np.sin(np.arange(1000.0))
+    got = scale([*noise, 1.5, 1.5, -1.5], signed=True)
+    assert (got.low, got.high, got.clipped_below, got.clipped_above) == (-1.5, 1.5, 0, 0)
+    assert got.rgb[:1000].tolist() == [got.gradient[255].tolist()] * 1000
+    got = scale(0.1 + noise)
+    assert got.low == got.high == pytest.approx(0.1, rel=1e-15)
+    assert got.rgb.tolist() == [got.gradient[255].tolist()] * 1000
+    assert got.clipped_below == got.clipped_above == 0
+    got = scale([*(0.1 + noise), 7.0], value_range="p90")
+    assert (got.low, got.high) == (pytest.approx(0.1), 7)
+
+
+def test_what_is_more_than_rounding_is_a_range() -> None:
+    got = scale(1 + 1e-13 * np.arange(101))
+    assert 1 < got.low < got.high < 1 + 1e-11
+    got = scale([*(1e-13 * np.arange(-500, 501)), 1.0], signed=True)
+    assert got.high == pytest.approx(4.9e-11, rel=0.01)
+
+
 def test_integers_and_masked_integers() -> None:
     got = colorize(np.ma.array([3, 99, 6], mask=[False, True, False]), value_range="p100", cmap="viridis")
     assert got.rgb.tolist() == [VIRIDIS[0], GREY, VIRIDIS[1]]
