@@ -21,14 +21,14 @@ from .model import (
     CONVENTIONS,
     CheckRow,
     Cmc,
-    Input,
     Minimal,
     Normals,
     Piece,
-    Remark,
     Report,
     Steiner,
     Topology,
+    input_of,
+    remarks,
 )
 from .statistics import ColumnStatistics, statistics
 
@@ -44,19 +44,13 @@ def build(analysis: Analysis) -> dict[str, Any]:
 
 def model(analysis: Analysis) -> Report:
     """The report of an analysis."""
-    surface, file = analysis.surface, analysis.surface.file
+    surface = analysis.surface
     whole = once(analysis, "whole", lambda: pieces(analysis, surface.whole)[0])
     conventions = analysis.conventions
     return Report(
         schema_version=1,
         curvcli=__version__,
-        input=Input(
-            path=file.path if file else None,
-            sha256=file.sha256 if file else None,
-            format=file.format if file else None,
-            vertices=surface.n_vertices,
-            polygons=file.polygons if file else surface.n_faces,
-        ),
+        input=input_of(surface.file, surface.n_vertices, surface.n_faces),
         conventions={key: getattr(conventions, key) for key in CONVENTIONS},
         topology=whole.topology,
         totals=whole.totals,
@@ -69,7 +63,7 @@ def model(analysis: Analysis) -> Report:
         regions=once(analysis, "regions", lambda: _regions(analysis)),
         columns=once(analysis, "columns", lambda: _columns(analysis)),
         checks=[CheckRow(**vars(check)) for check in analysis.checks],
-        warnings=[Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
+        warnings=remarks(analysis.notices),
         timings=analysis.timings,
     )
 
