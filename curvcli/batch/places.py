@@ -10,7 +10,6 @@ import re
 import sys
 from typing import Any, cast
 from urllib.parse import unquote, urlsplit
-from urllib.request import url2pathname
 
 from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
 from ..loading.content import open_regular, read_limited, shown
@@ -27,7 +26,11 @@ def is_url(place: str) -> bool:
 
 def local(place: str) -> str:
     """A `file://` URL as the path it stands for; everything else as it is."""
-    return url2pathname(urlsplit(place).path) if place.lower().startswith("file://") else place
+    if not place.lower().startswith("file://"):
+        return place
+    from urllib.request import url2pathname
+
+    return url2pathname(urlsplit(place).path)
 
 
 def root_of(pattern: str) -> tuple[str, ...]:

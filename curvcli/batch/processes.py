@@ -11,10 +11,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager, suppress
 from queue import SimpleQueue
 
-import msgspec
-
 from .._version import __version__
-from .messages import NO_MESSAGE, Done, Message, Ready, Task, receive, send
+from .messages import NO_MESSAGE, Done, Ready, Task, receive, send
 from .model import Engine, Item, Limits, Row, Settings
 from .outcome import lost
 
@@ -30,9 +28,19 @@ class Worker:
     def __init__(self, limits: Limits):
         self._limits = limits
         self._process: subprocess.Popen[bytes] | None = None
+        self._is_ready = False
         self._stopped = False
         self._late = False
         self._lock = threading.Lock()
+
+    def begin(self) -> None:
+        """Start the process, and let it become ready while there is something else to do."""
+        with self._lock:
+            if not self._stopped:
+                self._process = _start()
+        if self._process is not None:
+            with suppress(OSError):  # it has died already, which its answer will tell
+                send(self._process.stdin, self._limits)  # type: ignore[arg-type]
 
     def run(self, item: Item, settings: Settings) -> Row:
         """The row of one mesh, whatever it does to the process."""
@@ -42,7 +50,8 @@ class Worker:
         if self._limits.seconds is not None:
             timer.start()
         try:
-            done = _ask(process, Task(item, settings), Done)
+            send(process.stdin, Task(item, settings))  # type: ignore[arg-type]
+            done = receive(process.stdout, Done)  # type: ignore[arg-type]
         except NO_MESSAGE:
             self.end()
             done = Done(lost(item.path, process.returncode, self._limits, late=self._late), True)
@@ -69,7 +78,7 @@ class Worker:
             for stream in (self._process.stdin, self._process.stdout):
                 with suppress(OSError):
                     stream.close()  # type: ignore[union-attr]
-            self._process = None
+            self._process, self._is_ready = None, False
 
     def _too_late(self) -> None:
         self._late = True
@@ -78,20 +87,24 @@ class Worker:
 
     def _ready(self) -> subprocess.Popen[bytes]:
         """A process that has said that it is ready; starting does not count as time of a mesh."""
-        if self._process is not None and self._process.poll() is None:
+        if self._process is not None and self._is_ready and self._process.poll() is None:
             return self._process
+        if self._is_ready:
+            self.end()
         ended = 0
         for _ in range(_STARTS):
-            self.end()
-            with self._lock:
-                if self._stopped:
-                    break
-                self._process = process = _start()
+            if self._process is None:
+                self.begin()
+            if self._process is None:
+                break
+            process = self._process
             try:
-                if _ask(process, self._limits, Ready).version == __version__:
+                if receive(process.stdout, Ready).version == __version__:  # type: ignore[arg-type]
+                    self._is_ready = True
                     return process
             except NO_MESSAGE:
                 ended = process.wait()
+            self.end()
         raise RuntimeError(f"a worker cannot start: it ends with {ended}")
 
 
@@ -107,24 +120,23 @@ def _start() -> subprocess.Popen[bytes]:
     )
 
 
-def _ask(process: subprocess.Popen[bytes], question: msgspec.Struct, answer: type[Message]) -> Message:
-    assert process.stdin is not None
-    assert process.stdout is not None
-    send(process.stdin, question)  # type: ignore[arg-type]
-    return receive(process.stdout, answer)  # type: ignore[arg-type]
-
-
 @contextmanager
-def here(limits: Limits, jobs: int) -> Iterator[Engine]:
-    """The engine that works on this machine with so many workers; leaving ends every one."""
+def here(limits: Limits, jobs: int, soon: int = 0) -> Iterator[Engine]:
+    """The engine that works on this machine with so many workers; leaving ends every one.
+
+    soon: how many meshes are sure to come: workers for them start at once.
+    """
     workers: list[Worker] = []
     idle: SimpleQueue[Worker] = SimpleQueue()
     pool = ThreadPoolExecutor(jobs, "curvcli-batch")
 
-    def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
-        for _ in range(min(jobs, len(items)) - len(workers)):
+    def hire(meshes: int) -> None:
+        for _ in range(min(jobs, meshes) - len(workers)):
             workers.append(Worker(limits))
             idle.put(workers[-1])
+
+    def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
+        hire(len(items))
         for future in as_completed([pool.submit(do, item, settings) for item in items]):
             yield future.result()
 
@@ -136,6 +148,9 @@ def here(limits: Limits, jobs: int) -> Iterator[Engine]:
             idle.put(worker)
 
     try:
+        hire(soon)
+        for worker in workers:
+            worker.begin()
         yield engine
     finally:
         pool.shutdown(wait=False, cancel_futures=True)

@@ -19,7 +19,7 @@ from .talk import say
 
 if TYPE_CHECKING:
     from ..batch.batch import Batch
-    from ..batch.model import Engine, Item, Limits
+    from ..batch.model import Engine, Item, Limits, Settings
 
 
 @click.command("batch", short_help="Analyse many meshes: workers, timeouts, resume, a summary.")
@@ -94,17 +94,11 @@ def run(
     strict: bool,
     quiet: bool,
     verbose: int,
-    passes: tuple[str, ...],
-    weld: str,
     **conventions: Any,
 ) -> int:
     """Check the options, plan, work, summarise; the exit code."""
-    from ..batch.batch import Batch
-    from ..batch.manifest import Manifest
-    from ..batch.model import Limits, Settings
+    from ..batch.model import Limits
     from ..batch.plan import plan, saves
-    from ..output.write import check_appearance
-    from ..report.words import shell_quoted
 
     if not folder:
         raise UsageError("-o: expected a folder")
@@ -113,24 +107,18 @@ def run(
     if max_memory is not None and not sys.platform.startswith("linux"):
         raise UsageError("--max-memory: only Linux bounds the memory of a process")
     wanted = saves(save)
-    chosen, at_scale = options.chosen(passes, conventions)
-    if any(one.startswith("regions.") for one in wanted) and conventions["regions"] is None:
-        raise UsageError("--save regions: there are none without --regions")
-    appearance = options.appearance(conventions)
-    check_appearance(appearance, at_scale, [f".{one}" for one in wanted])
-    how = Settings(
-        passes=tuple(chosen),
-        save=wanted,
-        weld=options.welding(weld),
-        appearance=appearance,
-        command=shell_quoted(["curvcli", *sys.argv[1:]]),
-        **conventions,
-    )
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
     items = plan(patterns, files_from, folder, wanted)
-    # A scheduler that does not answer leaves no folder behind.
     with ExitStack() as workers:
-        engine = workers.enter_context(_engine(scheduler, jobs, limits))
+        # Workers get ready while this process imports what it needs; what a resumed batch leaves them is not known yet.
+        ready = scheduler is None and not resume
+        engine = workers.enter_context(_here(limits, jobs, len(items))) if ready else None
+        how = _settings(wanted, **conventions)
+        # A scheduler that does not answer leaves no folder behind.
+        engine = engine or workers.enter_context(_engine(scheduler, jobs, limits))
+        from ..batch.batch import Batch
+        from ..batch.manifest import Manifest
+
         with Manifest(folder, resume=resume, force=force) as manifest:
             batch = Batch(items, how, folder, manifest, strict)
             todo = batch.todo()
@@ -144,11 +132,39 @@ def run(
     return worst([row.exit_code for row in batch.rows])
 
 
+def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **conventions: Any) -> Settings:
+    """How each mesh is done.
+
+    Errors: UsageError for options that do not fit.
+    """
+    from ..batch.model import Settings
+    from ..output.write import check_appearance
+    from ..report.words import shell_quoted
+
+    names, at_scale = options.chosen(passes, conventions)
+    if any(one.startswith("regions.") for one in save) and conventions["regions"] is None:
+        raise UsageError("--save regions: there are none without --regions")
+    appearance = options.appearance(conventions)
+    check_appearance(appearance, at_scale, [f".{one}" for one in save])
+    return Settings(
+        passes=tuple(names),
+        save=save,
+        weld=options.welding(weld),
+        appearance=appearance,
+        command=shell_quoted(["curvcli", *sys.argv[1:]]),
+        **conventions,
+    )
+
+
+def _here(limits: Limits, jobs: int | None, soon: int = 0) -> AbstractContextManager[Engine]:
+    from ..batch.processes import here
+
+    return here(limits, jobs or _processors(), soon)
+
+
 def _engine(scheduler: str | None, jobs: int | None, limits: Limits) -> AbstractContextManager[Engine]:
     if scheduler is None:
-        from ..batch.processes import here
-
-        return here(limits, jobs or _processors())
+        return _here(limits, jobs)
     if jobs is not None:
         raise UsageError("-j counts workers here, --scheduler has its own; choose one")
     from ..batch.dask import connect

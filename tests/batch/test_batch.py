@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import os
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import polars as pl
 import pytest
 
 import curvcli
-from curvcli.batch import outcome
+from curvcli.batch import outcome, processes
 from curvcli.batch.batch import Batch
 from curvcli.batch.manifest import Manifest
 from curvcli.batch.model import Limits, Row, Settings
@@ -24,6 +25,7 @@ from curvcli.batch.plan import plan
 from curvcli.errors import InputError, OutputError
 from curvcli.exits import exit_code
 from tests.batch.conftest import ALL, BAD, GOOD, Run
+from tests.cli.program import environment
 from tests.shared import SHARED, needs_shared
 
 SAVE = ("--save", "csv,json,ply,edges.csv")
@@ -217,6 +219,41 @@ def test_codes_are_those_of_the_program() -> None:
             raise error
         assert outcome.explained("p", raised.value, Limits()).exit_code == exit_code(error)
     assert msgspec.json.decode(msgspec.json.encode(Row(path="x")), type=Row) == Row(path="x")
+
+
+def test_workers_start_before_what_only_the_parent_waits_for(scans: Path) -> None:
+    """Two of them for many meshes, one for one mesh, none that a resumed batch may not need."""
+    program = """
+import sys
+from curvcli.batch import processes
+from curvcli.commands.main import main
+start = processes._start
+def told():
+    print("scipy" in sys.modules, "polars" in sys.modules)
+    return start()
+processes._start = told
+main()
+"""
+
+    def starts(*arguments: str) -> list[str]:
+        line = [sys.executable, "-c", program, "batch", *arguments, "-o", "out", "-q", "-j", "2"]
+        done = subprocess.run(line, capture_output=True, text=True, env=environment(), timeout=120)
+        assert done.stderr == ""
+        return done.stdout.splitlines()
+
+    assert starts("scans/a.*") == ["False False"] * 2
+    assert starts("scans/a.*", "--resume") == []
+    assert starts("scans/a.obj", "--force") == ["False False"]
+
+
+def test_workers_that_started_in_vain_are_gone(scans: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[subprocess.Popen[bytes]] = []
+    start = processes._start
+    monkeypatch.setattr(processes, "_start", lambda: started.append(start()) or started[-1])
+    assert run("batch", "scans/a.*", "-o", "out", "-p", "nothing").code == 2
+    assert started
+    assert all(process.poll() is not None for process in started)
+    assert not Path("out").exists()
 
 
 def test_bars_stay_off_pipes_and_quiet_is_quiet(scans: Path, run: Run) -> None:
