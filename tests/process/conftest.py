@@ -11,8 +11,8 @@ from tests.process.meshes import write
 
 @pytest.fixture(scope="session")
 def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """300,000 vertices as PLY."""
-    return write("torus", 300_000, tmp_path_factory.mktemp("large") / "torus.ply")
+    """150,000 vertices as PLY."""
+    return write("torus", 150_000, tmp_path_factory.mktemp("large") / "torus.ply")
 
 
 @pytest.fixture(scope="session")

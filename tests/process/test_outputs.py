@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import command, curvcli, environment, start
+from tests.cli.program import command, curvcli, environment, served, start
 from tests.meshes import ellipsoid, torus
 from tests.process.meshes import write_obj
 from tests.process.watch import feed
@@ -50,8 +50,8 @@ def test_a_disk_full_at_the_second_output(small: Path, tiny: Path) -> None:
 def test_a_stdout_that_takes_nothing(what: list[str], stdout: str, small: Path) -> None:
     if stdout == "full" and not os.path.exists("/dev/full"):
         pytest.skip("there is no /dev/full here")
-    where = {"full": ">/dev/full", "closed": ">&-"}[stdout]
-    line = ["sh", "-c", f'"$@" {where}', "sh", *command("analyze", small, *what)]
+    where, program = {"full": (">/dev/full", served), "closed": (">&-", command)}[stdout]
+    line = ["sh", "-c", f'"$@" {where}', "sh", *program("analyze", small, *what)]
     done = subprocess.run(line, capture_output=True, env=environment(), timeout=120)
     assert done.returncode == 4
     assert done.stderr.startswith(b"curvcli: stdout: cannot be written: ")
