@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON
-from .errors import InputError
+from ..blocks import EPSILON
+from ..errors import InputError
 from .simplicial import odd
 
 Floats = NDArray[np.float64]

@@ -16,9 +16,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .blocks import EPSILON
-from .checks.base import Check
-from .errors import InputError, UsageError
+from ..blocks import EPSILON
+from ..checks.base import Check
+from ..errors import InputError, UsageError
 from .frames import Frames, frames
 from .simplicial import Complex
 
