@@ -82,12 +82,18 @@ def colorize(
     rgb = np.empty((len(values), 3), np.uint8)
     below = above = 0
     if low is not None and high is not None:
-        if low == high:
-            values = np.where(np.abs(values - low) <= _ALIKE * abs(low), low, values)
+        values = settled(values, low, high)
         rgb[:] = np.take(gradient, _positions(values, low, high), axis=0)
         below, above = int((values < low).sum()), int((values > high).sum())
     rgb[nulls] = undefined
     return ColorScale(rgb, low, high, name, gradient, undefined, below, above, int(nulls.sum()), signed)
+
+
+def settled(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
+    """The values; where the range is a single one, those that differ from it by their rounding only are that one."""
+    if low != high:
+        return values
+    return np.where(np.abs(values - low) <= _ALIKE * abs(low), low, values)
 
 
 def categorize(codes: NDArray[np.integer[Any]], names: tuple[str, ...]) -> ColorScale:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import curvcli
+from curvcli.output.camera import frame
 from curvcli.output.html import page as pages
 from curvcli.output.html.engine import engine
 from tests.html.pages import HOSTILE, labelled, page_of, parsed
@@ -139,6 +140,18 @@ def test_the_data_are_the_surface_to_float32(both: Any) -> None:
         np.testing.assert_array_equal(stored, expected, column["name"])
     names = [name for name, column in analysis.vertices.items() if column.ndim == 1 and column.dtype.kind != "U"]
     assert sorted(column["name"] for column in data["columns"]) == sorted(names)
+
+
+def test_a_column_of_one_value_and_its_rounding_has_one_bar_and_one_number() -> None:
+    mesh = of_sample("icosahedron")
+    analysis, page = parsed(tuple(mesh.moved(mesh.points @ frame(33, 44))))
+    assert 0 < np.ptp(analysis.vertices["A"]) < 1e-14
+    place = [column["name"] for column in page.json()["columns"]].index("A")
+    figure = page.root.one("figure", id=f"scale-{place}")
+    bars = [rect for rect in figure.all("rect") if not rect.attributes["fill"].startswith("url(")]
+    assert [float(bar.attributes["height"]) for bar in bars] == [30]
+    assert [data.text for data in figure.one("p", **{"class": "ticks"}).all("data")] == ["0.7217"]
+    assert [data.text for data in figure.one("p", **{"class": "cut"}).all("data")] == ["0", "0", "0"]
 
 
 def test_warnings_come_with_their_hints() -> None:

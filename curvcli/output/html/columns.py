@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...loading.model import Labels
 from ...tables import vertex_table
-from ..colors import ColorScale
+from ..colors import ColorScale, settled
 from ..legend import Colored
 from ..write import colored
 
@@ -84,6 +84,7 @@ def histogram(values: NDArray[np.float64], scale: ColorScale) -> tuple[list[Bar]
     low, high = scale.low, scale.high
     if low is None or high is None:
         return [], 0
+    values = settled(values, low, high)
     inside = values[(values >= low) & (values <= high)]
     half = high / 2 - low / 2
     place = np.full(len(inside), 0.5) if half == 0 else np.clip((inside / 2 - low / 2) / half, 0, 1)

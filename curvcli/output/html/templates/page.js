@@ -34,7 +34,8 @@ function spread(stored, of) {
     known[i] = 1;
     place[i] = half > 0
       ? Math.min(Math.max((value / 2 - of.low / 2) / half, -1), 2)
-      : value < of.low ? 0 : value > of.high ? 1 : 0.5;
+      : Math.abs(value - of.low) <= 1e-6 * Math.abs(of.low) ? 0.5 // float32 has no more digits
+      : value < of.low ? 0 : 1;
   }
   return { place, known };
 }
