@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -55,6 +56,19 @@ def agree(quantity: Quantity, found: Array, wanted: Array, digits: float = 1e-11
     if quantity.kind == "direction" and quantity.on == "vertex":
         gap = np.minimum(np.abs(found - wanted), np.abs(found + wanted))[known]
     assert gap.max() <= tolerance * max(largest, np.finfo(float).tiny), (quantity.name, gap.max(), largest)
+
+
+def for_all(names: Iterable[str], hold: Callable[[str], None]) -> None:
+    """Try all columns, and tell together which of them fail."""
+    failed = []
+    for name in names:
+        try:
+            hold(name)
+        except AssertionError as error:
+            error.add_note(f"column {name}")
+            failed.append(error)
+    if failed:
+        raise ExceptionGroup(f"{len(failed)} columns fail", failed)
 
 
 def same(quantity: Quantity, found: Array, wanted: Array) -> None:

@@ -14,6 +14,7 @@ import curvcli
 from curvcli.analysis import Analysis
 from curvcli.declare import Quantity, passes
 from tests import exact_values as exact
+from tests.columns import for_all
 
 _ = curvcli.passes  # importing registers them
 
@@ -67,22 +68,24 @@ def agree(
 
 
 @pytest.mark.parametrize("scale", SCALES)
-@pytest.mark.parametrize("column", VERTEX)
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_vertex_columns(name: str, column: str, scale: str) -> None:
-    known = exact.Vertices(name).columns()
-    factor = SCALES[scale]
-    found, wanted = np.array(analysis(name, factor).vertices[column], np.float64), known[column].copy()
+def test_vertex_columns(name: str, scale: str) -> None:
+    known, factor = exact.Vertices(name).columns(), SCALES[scale]
     unreferenced = np.array([degree is None for degree in exact.expected(name)["vertices"]["degree"]])
-    if column == "degree":
-        wanted[unreferenced] = 0
-    assert np.isnan(wanted[unreferenced]).all() or column == "degree"
-    if column in NORMAL and name == "catenoid_minimal":
-        return
-    if column in NORMAL and name == "monkey_saddle":
-        found[0] = wanted[0] = np.nan
-    absolute = column in ANGLES or (column in MINIMAL and name == "catenoid_minimal")
-    agree(found, wanted, VERTEX[column], factor, rounding(name, factor), absolute)
+
+    def hold(column: str) -> None:
+        found, wanted = np.array(analysis(name, factor).vertices[column], np.float64), known[column].copy()
+        if column == "degree":
+            wanted[unreferenced] = 0
+        assert np.isnan(wanted[unreferenced]).all() or column == "degree"
+        if column in NORMAL and name == "catenoid_minimal":
+            return
+        if column in NORMAL and name == "monkey_saddle":
+            found[0] = wanted[0] = np.nan
+        absolute = column in ANGLES or (column in MINIMAL and name == "catenoid_minimal")
+        agree(found, wanted, VERTEX[column], factor, rounding(name, factor), absolute)
+
+    for_all(VERTEX, hold)
 
 
 def test_every_curvature_of_the_paper_is_compared() -> None:
@@ -92,14 +95,13 @@ def test_every_curvature_of_the_paper_is_compared() -> None:
     assert not missing
 
 
-@pytest.mark.parametrize("column", EDGE)
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_edge_columns(name: str, column: str) -> None:
+def test_edge_columns(name: str) -> None:
     known = exact.edges(name)
     result = analysis(name)
     edges = result.surface.edges
     np.testing.assert_array_equal(np.stack([edges.a, edges.b]), np.stack([known["a"], known["b"]]))
-    agree(np.array(result.edges[column], np.float64), known[column], EDGE[column], 1.0, 0.0)
+    for_all(EDGE, lambda key: agree(np.array(result.edges[key], np.float64), known[key], EDGE[key], 1.0, 0.0))
 
 
 @pytest.mark.parametrize("name", exact.NAMES)

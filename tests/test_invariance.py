@@ -10,7 +10,7 @@ import pytest
 
 from curvcli.declare import Quantity
 from tests import meshes
-from tests.columns import PUBLIC, Array, agree, everything, same
+from tests.columns import PUBLIC, Array, agree, everything, for_all, same
 from tests.meshes import Mesh
 
 NAMES = tuple(meshes.ZOO)
@@ -96,16 +96,7 @@ def edge_map(one: Mesh, other: Mesh, vertex: Array) -> Array:
 
 
 def on_every_column(hold: Callable[[Quantity], None]) -> None:
-    """Try all of them, and tell together which of them fail."""
-    failed = []
-    for quantity in PUBLIC.values():
-        try:
-            hold(quantity)
-        except AssertionError as error:
-            error.add_note(f"column {quantity.name}")
-            failed.append(error)
-    if failed:
-        raise ExceptionGroup(f"{len(failed)} of {len(PUBLIC)} columns", failed)
+    for_all(PUBLIC, lambda name: hold(PUBLIC[name]))
 
 
 @pytest.mark.parametrize("name", NAMES)
