@@ -4,26 +4,19 @@ from __future__ import annotations
 
 import shutil
 import signal
-import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
-from curvcli.commands import batch
-from curvcli.commands.main import main
+from tests.cli.program import Ended
+from tests.cli.within import within_this
 from tests.exact_values import MESHES
 
 GOOD = {"a.obj": "cube", "a.ply": "annulus", "deep/er/a.ply": "annulus", "deep/m.obj": "mobius"}
 BAD = {"deep/empty.ply": b"", "junk.stl": b"junk", "readme.md": b"no mesh", "z.ply": b"ply\nformat ascii 1.0\n"}
 ALL = sorted([*GOOD, *BAD])
-
-
-class Ended(NamedTuple):
-    code: int
-    out: str
-    err: str
 
 
 Run = Callable[..., Ended]
@@ -54,16 +47,7 @@ def _signals() -> Iterator[None]:
 
 @pytest.fixture
 def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Run:
-    """With one worker unless -j names more: each takes a second to start."""
-    monkeypatch.setattr(batch, "_processors", lambda: 1)
-
-    def call(*arguments: object) -> Ended:
-        monkeypatch.setattr(sys, "argv", ["curvcli", *map(str, arguments)])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        return Ended(stop.value.code, *capfd.readouterr())  # type: ignore[arg-type]
-
-    return call
+    return partial(within_this, monkeypatch, capfd)
 
 
 def polygon(path: Path, vertices: int) -> None:

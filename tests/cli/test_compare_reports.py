@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import csv
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from curvcli.commands.main import main
 from tests.cli.program import ROOT, Ended, curvcli, wrote
+from tests.cli.within import within_this
 
 TORUS = ROOT / "sample_meshes" / "torus.obj"
 
@@ -42,10 +41,7 @@ def compare(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) 
 
     def call(folder: Path, *arguments: str) -> Ended:
         monkeypatch.chdir(folder)
-        monkeypatch.setattr(sys, "argv", ["curvcli", "compare", *arguments])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        return Ended(stop.value.code, *capfd.readouterr())  # type: ignore[arg-type]
+        return within_this(monkeypatch, capfd, "compare", *arguments)
 
     return call
 
@@ -85,7 +81,7 @@ def test_a_stored_report_guards_a_mesh(compare: Compare, folder: Path) -> None:
     assert not any(key.startswith(("topology", "checks", "totals.K.", "totals.A_vec")) for key in keys)
     area = keys["totals.area"]
     assert area["moved"] == abs(area["a"] - area["b"]) > area["allowed"]
-    assert found["a"]["kind"], found["b"]["kind"] == ("mesh", "report")
+    assert (found["a"]["kind"], found["b"]["kind"]) == ("mesh", "report")
     assert as_json(compare(folder, "moved.obj", "base.json", "--json", "--only", "totals.K", "--only", "topology"))[
         "equal"
     ]

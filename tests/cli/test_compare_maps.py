@@ -3,36 +3,16 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import polars as pl
 import pytest
 
-from curvcli.commands.main import main
+from tests.cli.program import Ended
 
-
-class Result(NamedTuple):
-    code: int
-    out: str
-    err: str
-
-
-Run = Callable[..., Result]
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Run:
-    def call(*arguments: object) -> Result:
-        monkeypatch.setattr(sys, "argv", ["curvcli", *map(str, arguments)])
-        with pytest.raises(SystemExit) as stop:
-            main()
-        return Result(stop.value.code, *capfd.readouterr())  # type: ignore[arg-type]
-
-    return call
+Run = Callable[..., Ended]
 
 
 @pytest.fixture
@@ -53,8 +33,8 @@ def stretched(square: Path) -> Path:
     return path
 
 
-def test_report(run: Run, square: Path, stretched: Path) -> None:
-    code, out, err = run("compare", square, stretched, "--map", "--json")
+def test_report(within: Run, square: Path, stretched: Path) -> None:
+    code, out, err = within("compare", square, stretched, "--map", "--json")
     assert (code, err) == (0, "")
     report = json.loads(out)
     assert report["source"]["path"] == str(square)
@@ -75,25 +55,25 @@ def test_report(run: Run, square: Path, stretched: Path) -> None:
     }
 
 
-def test_one_value(run: Run, square: Path, stretched: Path) -> None:
-    assert run("compare", square, stretched, "--map", "--get", "totals.area") == (0, "1.0\n", "")
-    assert run("compare", square, stretched, "--map", "--get", "checks.nonconformality.status")[1] == "pass\n"
-    code, out, err = run("compare", square, stretched, "--map", "--get", "totals.aera")
+def test_one_value(within: Run, square: Path, stretched: Path) -> None:
+    assert within("compare", square, stretched, "--map", "--get", "totals.area") == (0, "1.0\n", "")
+    assert within("compare", square, stretched, "--map", "--get", "checks.nonconformality.status")[1] == "pass\n"
+    code, out, err = within("compare", square, stretched, "--map", "--get", "totals.aera")
     assert (code, out) == (2, "")
     assert "expected one of area" in err
 
 
-def test_summary(run: Run, square: Path, stretched: Path) -> None:
-    code, out, err = run("compare", square, stretched, "--map")
+def test_summary(within: Run, square: Path, stretched: Path) -> None:
+    code, out, err = within("compare", square, stretched, "--map")
     assert (code, err) == (0, "")
     for word in ("dirichlet", "5.125", "sigma_1", "nonconformality", "pass", "at vertex 4"):
         assert word in out
-    assert run("compare", square, stretched, "--map", "-q") == (0, "", "")
+    assert within("compare", square, stretched, "--map", "-q") == (0, "", "")
 
 
-def test_tables(run: Run, square: Path, stretched: Path, tmp_path: Path) -> None:
+def test_tables(within: Run, square: Path, stretched: Path, tmp_path: Path) -> None:
     vertices, faces, report = tmp_path / "v.csv", tmp_path / "f.parquet", tmp_path / "r.json"
-    written = run("compare", square, stretched, "--map", "-o", vertices, "--table", f"faces={faces}", "-o", report)
+    written = within("compare", square, stretched, "--map", "-o", vertices, "--table", f"faces={faces}", "-o", report)
     assert written.code == 0
     frame = pl.read_csv(vertices)
     assert frame.columns == [*("vertex", "x", "y", "z"), *(f"gradient_{x}" for x in "xyz"), "harmonic_residual"]
@@ -105,45 +85,45 @@ def test_tables(run: Run, square: Path, stretched: Path, tmp_path: Path) -> None
     assert frame["nonconformality"].sum() == pytest.approx(json.loads(report.read_text())["totals"]["nonconformality"])
 
 
-def test_table_on_stdout(run: Run, square: Path, stretched: Path) -> None:
-    code, out, _ = run("compare", square, stretched, "--map", "--table", "faces=-", "--format", "csv")
+def test_table_on_stdout(within: Run, square: Path, stretched: Path) -> None:
+    code, out, _ = within("compare", square, stretched, "--map", "--table", "faces=-", "--format", "csv")
     assert code == 0
     assert len(out.splitlines()) == 5
-    assert run("compare", square, stretched, "--map", "-o", "-", "--format", "csv", "--json").code == 2
+    assert within("compare", square, stretched, "--map", "-o", "-", "--format", "csv", "--json").code == 2
 
 
-def test_failing_identity_is_exit_1(run: Run, square: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failing_identity_is_exit_1(within: Run, square: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from curvcli import maps
 
     monkeypatch.setattr(maps, "rounding", lambda surface, terms: -terms)
-    code, out, _ = run("compare", square, square, "--map")
+    code, out, _ = within("compare", square, square, "--map")
     assert code == 1
     assert "FAIL" in out
 
 
-def test_options_of_the_other_kind_are_refused(run: Run, square: Path) -> None:
+def test_options_of_the_other_kind_are_refused(within: Run, square: Path) -> None:
     for arguments in (["--map", "--rtol", "1e-3"], ["--map", "--regions", "groups"], ["--table", "faces=f.csv"]):
-        code, out, err = run("compare", square, square, *arguments)
+        code, out, err = within("compare", square, square, *arguments)
         assert (code, out, err.count("\n")) == (2, "", 1)
         assert ("without --map" if "--map" in arguments else "with --map") in err
 
 
-def test_refused(run: Run, square: Path, tmp_path: Path) -> None:
+def test_refused(within: Run, square: Path, tmp_path: Path) -> None:
     other = tmp_path / "other.obj"
     other.write_text(square.read_text().replace("f 3 4 5", "f 4 5 3"))
-    code, out, err = run("compare", square, other, "--map", "-o", tmp_path / "v.csv")
+    code, out, err = within("compare", square, other, "--map", "-o", tmp_path / "v.csv")
     assert (code, out) == (3, "")
     assert err == (
         f"curvcli: {other}: face 2: has corners 3 4 2, expected 2 3 4 as in {square}; "
         "a map needs the same vertices and faces in the same order\n"
     )
     assert not (tmp_path / "v.csv").exists()
-    assert run("compare", square, tmp_path / "missing.obj", "--map").code == 3
+    assert within("compare", square, tmp_path / "missing.obj", "--map").code == 3
     for wrong in ("faces", "edges=e.csv", "faces=f.ply", "faces="):
-        refused = run("compare", square, square, "--map", "--table", wrong)
+        refused = within("compare", square, square, "--map", "--table", wrong)
         assert (refused.code, refused.out, len(refused.err.splitlines())) == (2, "", 1)
-    assert run("compare", "-", "-", "--map").code == 2
+    assert within("compare", "-", "-", "--map").code == 2
     square.with_name("v.csv").write_text("mine")
-    refused = run("compare", square, square, "--map", "-o", tmp_path / "v.csv")
+    refused = within("compare", square, square, "--map", "-o", tmp_path / "v.csv")
     assert refused.code == 4
     assert (tmp_path / "v.csv").read_text() == "mine"
