@@ -221,15 +221,15 @@ def analyze(
 
     surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
     passes: a preset (`topology`, `core`, `paper`, `estimates`, `all`) or names; None is `core`, with `estimates` where
-    a scale is asked for. area: the cell of `K_density`. mean: whether H is
-    κ₁ + κ₂ or their average. orient: `file`, or `outward` to turn closed patches that are inside out; None is what a
-    Surface was made with, else `file`. weld: see `curvcli.load`. unit: a label for lengths. regions: a label per face
+    a scale is asked for. area: the cell of `K_density`. mean: whether H is κ₁ + κ₂ or their average. orient: `file`, or
+    `outward` to turn closed patches that are inside out; None is what a Surface was made with, else `file`. weld: how
+    the vertices of a file are merged, see `curvcli.load`. unit: a label for lengths. regions: a label per face
     (negative: none), or the name of the file, record or property that holds them. checks: names of the identities to
     test, whatever they need; None is those whose needs the chosen passes meet. rings, radius: how far estimates look,
     in rings of edges or at a radius (a length, or mean edge lengths such as `3e`); several (`2e,4e`) give one column
     for each. normals: whose normals the corrected curvatures use, the mesh's or those the file gives. noise: the
     standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the precision of the coordinates.
-    Errors: UsageError for an unknown name, InputError for a mesh that is no surface.
+    Errors: UsageError for an unknown name or an option that does not fit, InputError for a mesh that is no surface.
     """
     scales = parse_scales(rings, radius)
     settings = Settings(scales or DEFAULTS.scales, normals, noise)

@@ -13,8 +13,7 @@ from click.testing import CliRunner
 
 import curvcli
 from curvcli.commands.main import cli
-from curvcli.errors import InputError, UsageError
-from curvcli.output.write import write_outputs
+from curvcli.errors import InputError, OutputError, UsageError
 from tests import exact_values, meshes
 from tests.columns import PUBLIC
 
@@ -187,9 +186,11 @@ def test_write(tmp_path: Path) -> None:
     result = curvcli.analyze(meshes.zoo("cap").surface(), "all")
     result.write(tmp_path / "a.json")
     assert json.loads((tmp_path / "a.json").read_text())["topology"] == result.report()["topology"]
-    with pytest.raises(Exception, match="exists"):
+    with pytest.raises(OutputError, match="exists"):
         result.write(tmp_path / "a.json")
-    write_outputs(result, [str(tmp_path / "a.json")], force=True)
+    (tmp_path / "a.json").write_text("")
+    result.write(tmp_path / "a.json", force=True)
+    assert json.loads((tmp_path / "a.json").read_text())["totals"] == result.report()["totals"]
 
 
 @pytest.mark.parametrize("name", ["disk", "mobius", "two_components", "unreferenced"])

@@ -147,3 +147,18 @@ def test_one_check_may_be_named_by_a_word() -> None:
     assert found == {"gauss_bonnet", "volume"}
     with pytest.raises(curvcli.errors.UsageError, match="unknown check 'gauss_bonet'; nearest: gauss_bonnet"):
         curvcli.analyze((POINTS, FACES), checks="gauss_bonet")
+
+
+@pytest.mark.parametrize("weld", ["exact", "none", 1e-6])
+def test_only_files_are_welded(tmp_path: Path, weld: str | float) -> None:
+    """What was merged otherwise when it was read, or is no file, is refused and not passed over."""
+    file = tmp_path / "mesh.obj"
+    file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 4 3 2\n")
+    same = curvcli.load(file, weld=weld)
+    assert curvcli.analyze(same, "topology", weld=weld).surface is same
+    others = [curvcli.load(file, weld=other) for other in ("exact", "none", 1e-6) if other != weld]
+    pair = (POINTS, FACES), trimesh.Trimesh(POINTS, FACES, process=False), curvcli.Surface(POINTS, FACES)
+    for given in [*others, *(pair if weld != "none" else ())]:
+        curvcli.analyze(given, "topology")
+        with pytest.raises(curvcli.errors.UsageError, match="merged when a file is read"):
+            curvcli.analyze(given, "topology", weld=weld)

@@ -7,7 +7,7 @@ import sys
 from typing import Any, BinaryIO, Literal
 
 from ..arrays import freeze
-from ..errors import InputError
+from ..errors import InputError, UsageError
 from ..surface import Surface
 from .model import MeshFile
 
@@ -69,10 +69,12 @@ def as_surface(
 ) -> Surface:
     """A Surface from a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays.
 
-    orient: None keeps a Surface's own choice and is `file` for the rest.
-    Errors: InputError for a mesh that is no surface; TypeError for anything else.
+    orient: None keeps a Surface's own choice and is `file` for the rest. weld: for files; what is no file is as it is.
+    Errors: InputError for a mesh that is no surface; UsageError for welding what is no file; TypeError for anything
+    else.
     """
     if isinstance(given, Surface):
+        _check_weld(weld, given.file.weld if given.file is not None else "none")
         if orient in (None, given.orient):
             return given
         return Surface(
@@ -87,7 +89,14 @@ def as_surface(
     if isinstance(given, str | os.PathLike) or hasattr(given, "read"):
         return load(given, orient=orient, weld=weld, normals=normals)
     if hasattr(given, "vertices") and hasattr(given, "faces"):
-        return Surface(given.vertices, given.faces, orient=orient)
+        given = given.vertices, given.faces
     if isinstance(given, tuple | list) and len(given) == 2:
+        _check_weld(weld, "none")
         return Surface(*given, orient=orient)
     raise TypeError(f"expected a Surface, a path, a trimesh.Trimesh or (points, faces), not {type(given).__name__}")
+
+
+def _check_weld(weld: str | float, merged: str) -> None:
+    """What is there already stays as it was merged: only a file that is read can be merged otherwise."""
+    if str(weld) not in ("auto", merged):
+        raise UsageError(f"weld is {str(weld)!r}, but vertices are merged when a file is read; `curvcli.load` does it")
