@@ -1,12 +1,8 @@
-"""From a path or a stream to its content: refused up front, recognised, and always through trimesh."""
+"""From a path or a stream to its content: welded as told, always through trimesh, and nothing else opened."""
 
 from __future__ import annotations
 
-import gzip
-import hashlib
 import io
-import os
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -20,108 +16,12 @@ from hypothesis import strategies as st
 
 from curvcli.errors import InputError, UsageError
 from curvcli.loading import text
-from curvcli.loading.content import shown
 from curvcli.loading.polygons import triangulate
 from curvcli.loading.read import read_mesh_file
-from tests.loading.spelling import ascii_stl, binary_stl
-from tests.loading.test_ply import STRIPS, ascii_ply
+from tests.loading.files import CONTENT, OBJ, PLY, STL, refused
+from tests.loading.spelling import ascii_stl
+from tests.loading.test_ply import STRIPS
 from tests.loading.test_stl import TETRAHEDRON
-
-OBJ = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n"
-PLY = ascii_ply("3 0 1 2\n3 0 2 3\n")
-STL = binary_stl(TETRAHEDRON)
-CONTENT = {"obj": OBJ, "ply": PLY, "stl": STL}
-
-
-def refused(source: Any, **options: Any) -> str:
-    with pytest.raises(InputError) as error:
-        read_mesh_file(source, **options)
-    assert str(error.value).isprintable(), "one line, whatever the file is called"
-    return str(error.value)
-
-
-@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "OBJ", "Ply", "STL"])
-@pytest.mark.parametrize("packed", ["", ".gz", ".GZ"])
-def test_promised_suffixes(tmp_path: Path, suffix: str, packed: str) -> None:
-    data = CONTENT[suffix.lower()]
-    data = gzip.compress(data) if packed else data
-    path = tmp_path / f"mesh.{suffix}{packed}"
-    path.write_bytes(data)
-    mesh = read_mesh_file(path)
-    assert (mesh.format, mesh.path, mesh.notices) == (suffix.lower(), str(path), ())
-    assert mesh.sha256 == hashlib.sha256(data).hexdigest()
-    assert mesh.polygons == (4 if suffix.lower() == "stl" else 2)
-
-
-@pytest.mark.parametrize("kind", ["obj", "ply", "stl"])
-@pytest.mark.parametrize("packed", [False, True])
-def test_streams(kind: str, packed: bool) -> None:
-    data = gzip.compress(CONTENT[kind]) if packed else CONTENT[kind]
-    for wanted in (kind, kind.upper(), None):
-        mesh = read_mesh_file(io.BytesIO(data), input_format=wanted)
-        assert (mesh.format, mesh.path, mesh.notices) == (kind, "-", ())
-    assert refused(io.BytesIO(b"hello")).startswith("-: content not recognised; --input-format")
-    assert refused(io.BytesIO(b"")).startswith("-: no data found")
-
-
-def test_gzip_is_recognised_by_content(tmp_path: Path) -> None:
-    (tmp_path / "mesh.obj").write_bytes(gzip.compress(OBJ[:30]) + gzip.compress(OBJ[30:]))
-    assert read_mesh_file(tmp_path / "mesh.obj").polygons == 2
-    (tmp_path / "plain.obj.gz").write_bytes(OBJ)
-    assert read_mesh_file(tmp_path / "plain.obj.gz").polygons == 2
-
-
-def test_damaged_gzip(tmp_path: Path) -> None:
-    packed = gzip.compress(OBJ)
-    path = tmp_path / "mesh.obj.gz"
-    for data in (packed[:-1], packed[:20], packed[:12] + b"\xff\xff\xff" + packed[15:], packed + b"garbage"):
-        path.write_bytes(data)
-        assert refused(path).startswith(f"{path}: damaged gzip data found")
-
-
-def test_a_gzip_bomb_is_refused_early(tmp_path: Path) -> None:
-    path = tmp_path / "bomb.obj.gz"
-    path.write_bytes(gzip.compress(b"#" + b" " * (1 << 27), 9))
-    assert "inflate to more than" in refused(path)
-    small = tmp_path / "small.obj.gz"
-    small.write_bytes(gzip.compress(OBJ + b" " * 10_000))
-    assert "inflate to more than 5000 bytes" in refused(small, max_bytes=5000)
-
-
-@pytest.mark.parametrize("told", ["obj", "ply", "stl"])
-@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "ascii"])
-def test_content_that_is_not_what_the_suffix_says(tmp_path: Path, told: str, kind: str) -> None:
-    data = ascii_stl(TETRAHEDRON) if kind == "ascii" else CONTENT[kind]
-    kind = "stl" if kind == "ascii" else kind
-    path = tmp_path / f"mesh.{told}"
-    path.write_bytes(data)
-    mesh = read_mesh_file(path)
-    assert mesh.format == kind
-    assert [n.code for n in mesh.notices] == ([] if told == kind else ["wrong_suffix"])
-
-
-@pytest.mark.parametrize("told", ["obj", "ply", "stl"])
-@pytest.mark.parametrize("data", [b"\x89PNG\r\n\x1a\n" + bytes(200), b"<html></html>", b"\0" * 83, b"1,2,3\n" * 50])
-def test_content_that_cannot_be_recognised(tmp_path: Path, told: str, data: bytes) -> None:
-    path = tmp_path / f"mesh.{told}"
-    path.write_bytes(data)
-    assert refused(path).startswith(f"{path}: ")
-
-
-@pytest.mark.parametrize("told", ["obj", "ply", "stl"])
-@pytest.mark.parametrize(
-    ("data", "message"),
-    [
-        (b"version https://git-lfs.github.com/spec/v1\noid sha256:%064d\nsize 5\n" % 7, "a Git LFS pointer found, "),
-        (b"/annex/objects/MD5E-s5--0.obj\n", "a git-annex pointer found, "),
-        (b"../.git/annex/objects/aa/bb/MD5E-s5--0/MD5E-s5--0", "a git-annex pointer found, "),
-        (b"\n <!DOCTYPE  html>\n<html lang='en'>" + bytes(100), "a web page found, "),
-    ],
-)
-def test_what_was_brought_instead_of_the_file(tmp_path: Path, told: str, data: bytes, message: str) -> None:
-    path = tmp_path / f"mesh.{told}"
-    path.write_bytes(data)
-    assert refused(path).startswith(f"{path}: {message}a mesh expected; ")
 
 
 @pytest.mark.parametrize("normals", ["mesh", "file"])
@@ -133,104 +33,6 @@ def test_points_with_normals_are_no_surface(normals: str) -> None:
     )
     curve = read_mesh_file(io.BytesIO(data + b"l 1 2 3\n"), input_format="obj", normals=normals)
     assert [line.tolist() for line in curve.polylines] == [[0, 1, 2]]
-
-
-def test_utf_16(tmp_path: Path) -> None:
-    """Also without a byte-order mark: with zeros for blanks, `10` would be read as two numbers."""
-    for kind in ("obj", "ply", "stl"):
-        path = tmp_path / f"mesh.{kind}"
-        for encoding in ("utf-16", "utf-16-le", "utf-16-be", "utf-32", "utf-32-le", "utf-32-be"):
-            path.write_bytes(OBJ.replace(b"v 1 ", b"v 10 ").decode().encode(encoding))
-            assert "UTF-16 or UTF-32 text found" in refused(path)
-
-
-def test_other_suffixes_are_refused_unless_told(tmp_path: Path) -> None:
-    for name in ("mesh.off", "mesh", "mesh.obj.bak", "mesh.gz", "obj"):
-        path = tmp_path / name
-        path.write_bytes(OBJ)
-        message = refused(path)
-        assert ".obj, .ply, .stl expected" in message
-        assert "--input-format" in message
-        assert read_mesh_file(path, input_format="obj").polygons == 2
-    with pytest.raises(UsageError, match="`off` is not known"):
-        read_mesh_file(tmp_path / "mesh.off", input_format="off")
-
-
-def test_what_is_no_regular_file(tmp_path: Path) -> None:
-    folder = tmp_path / "folder.obj"
-    folder.mkdir()
-    assert refused(folder).startswith(f"{folder}: a directory found, a regular file expected; `-`")
-    assert refused(tmp_path / "none.obj") == f"{tmp_path / 'none.obj'}: no such file"
-    assert refused(tmp_path / "none" / "none.obj").endswith("no such file")
-    assert "not a file name" in refused("a\0b.obj")
-    assert "cannot be read" in refused("a" * 5000 + ".obj")
-    empty = tmp_path / "empty.obj"
-    empty.touch()
-    assert refused(empty) == f"{empty}: no data found, a mesh expected"
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
-def test_pipes_devices_and_sockets_are_not_waited_for(tmp_path: Path) -> None:
-    pipe = tmp_path / "pipe.obj"
-    os.mkfifo(pipe)
-    assert "a named pipe found" in refused(pipe)
-    (tmp_path / "device.obj").symlink_to("/dev/zero")
-    assert "a device found" in refused(tmp_path / "device.obj")
-    with socket.socket(socket.AF_UNIX) as end:
-        here = os.getcwd()
-        os.chdir(tmp_path)  # the name of a socket must be short
-        try:
-            end.bind("s.obj")
-            assert "a socket found" in refused("s.obj")
-        finally:
-            os.chdir(here)
-    loop = tmp_path / "loop.obj"
-    loop.symlink_to(loop)
-    assert refused(loop) == f"{loop}: the link leads in a circle"
-
-
-@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="whoever runs this may read every file")
-def test_files_that_may_not_be_read(tmp_path: Path) -> None:
-    path = tmp_path / "mesh.obj"
-    path.write_bytes(OBJ)
-    path.chmod(0)
-    assert "permission denied" in refused(path)
-
-
-@pytest.mark.parametrize("name", ["ein Würfel.obj", "a\nb.obj", "-.obj", "\x1b[31m.obj", "a\u2028b.obj", " .obj"])
-def test_odd_names(tmp_path: Path, name: str) -> None:
-    path = tmp_path / name
-    path.write_bytes(OBJ)
-    mesh = read_mesh_file(path)
-    assert mesh.polygons == 2
-    assert mesh.path == shown(str(path))
-    path.write_bytes(OBJ + b"f 1 2 9\n")
-    assert refused(path).endswith(
-        "line 7: vertex index `9` found, 1 to 4 expected, or negative: counted back from this line"
-    )
-
-
-def test_names_that_are_not_utf_8(tmp_path: Path) -> None:
-    path = os.fsencode(tmp_path) + b"/\xff\xfe.obj"
-    try:
-        Path(os.fsdecode(path)).write_bytes(OBJ)
-    except OSError:
-        pytest.skip("this file system takes only UTF-8 names")
-    for source in (path, os.fsdecode(path), Path(os.fsdecode(path))):
-        mesh = read_mesh_file(source)
-        assert mesh.path is not None
-        assert mesh.path.endswith("/\\udcff\\udcfe.obj") or mesh.path.endswith("/\\xff\\xfe.obj")
-        assert mesh.path.isprintable()
-
-
-def test_limits(tmp_path: Path) -> None:
-    path = tmp_path / "mesh.obj"
-    path.write_bytes(OBJ)
-    assert read_mesh_file(path, max_bytes=len(OBJ), max_faces=2).polygons == 2
-    assert refused(path, max_bytes=len(OBJ) - 1).endswith("at most 47 allowed; --max-bytes sets the limit")
-    assert refused(io.BytesIO(OBJ), max_bytes=10, input_format="obj").startswith("-: more than 10 bytes found")
-    for kind, data in CONTENT.items():
-        assert "faces found, at most 1 allowed" in refused(io.BytesIO(data), input_format=kind, max_faces=1)
 
 
 def test_welding(tmp_path: Path) -> None:
@@ -286,18 +88,6 @@ def test_no_reference_inside_a_file_is_opened(tmp_path: Path) -> None:
     )
     ran = subprocess.run([sys.executable, "-c", program, str(path)], capture_output=True, text=True, check=True)
     assert ran.stdout.strip() == repr([str(path)])
-
-
-def test_a_file_that_shrinks_while_it_is_read(tmp_path: Path) -> None:
-    class Shrinking(io.BytesIO):
-        def read(self, size: int | None = -1) -> bytes:
-            return b"" if self.tell() else super().read(70)
-
-        def read1(self, size: int | None = -1) -> bytes:
-            return self.read(size)
-
-    assert refused(Shrinking(PLY), input_format="ply").startswith("-: no `end_header` found")
-    assert refused(Shrinking(STL), input_format="stl").startswith("-: 70 bytes found")
 
 
 def test_importing_the_reader_is_cheap() -> None:

@@ -1,0 +1,97 @@
+"""Which format a file has: by its name, by its content, and what is refused as none."""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import io
+from pathlib import Path
+
+import pytest
+
+from curvcli.errors import UsageError
+from curvcli.loading.read import read_mesh_file
+from tests.loading.files import CONTENT, OBJ, refused
+from tests.loading.spelling import ascii_stl
+from tests.loading.test_stl import TETRAHEDRON
+
+
+@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "OBJ", "Ply", "STL"])
+@pytest.mark.parametrize("packed", ["", ".gz", ".GZ"])
+def test_promised_suffixes(tmp_path: Path, suffix: str, packed: str) -> None:
+    data = CONTENT[suffix.lower()]
+    data = gzip.compress(data) if packed else data
+    path = tmp_path / f"mesh.{suffix}{packed}"
+    path.write_bytes(data)
+    mesh = read_mesh_file(path)
+    assert (mesh.format, mesh.path, mesh.notices) == (suffix.lower(), str(path), ())
+    assert mesh.sha256 == hashlib.sha256(data).hexdigest()
+    assert mesh.polygons == (4 if suffix.lower() == "stl" else 2)
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl"])
+@pytest.mark.parametrize("packed", [False, True])
+def test_streams(kind: str, packed: bool) -> None:
+    data = gzip.compress(CONTENT[kind]) if packed else CONTENT[kind]
+    for wanted in (kind, kind.upper(), None):
+        mesh = read_mesh_file(io.BytesIO(data), input_format=wanted)
+        assert (mesh.format, mesh.path, mesh.notices) == (kind, "-", ())
+    assert refused(io.BytesIO(b"hello")).startswith("-: content not recognised; --input-format")
+    assert refused(io.BytesIO(b"")).startswith("-: no data found")
+
+
+@pytest.mark.parametrize("told", ["obj", "ply", "stl"])
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "ascii"])
+def test_content_that_is_not_what_the_suffix_says(tmp_path: Path, told: str, kind: str) -> None:
+    data = ascii_stl(TETRAHEDRON) if kind == "ascii" else CONTENT[kind]
+    kind = "stl" if kind == "ascii" else kind
+    path = tmp_path / f"mesh.{told}"
+    path.write_bytes(data)
+    mesh = read_mesh_file(path)
+    assert mesh.format == kind
+    assert [n.code for n in mesh.notices] == ([] if told == kind else ["wrong_suffix"])
+
+
+@pytest.mark.parametrize("told", ["obj", "ply", "stl"])
+@pytest.mark.parametrize("data", [b"\x89PNG\r\n\x1a\n" + bytes(200), b"<html></html>", b"\0" * 83, b"1,2,3\n" * 50])
+def test_content_that_cannot_be_recognised(tmp_path: Path, told: str, data: bytes) -> None:
+    path = tmp_path / f"mesh.{told}"
+    path.write_bytes(data)
+    assert refused(path).startswith(f"{path}: ")
+
+
+@pytest.mark.parametrize("told", ["obj", "ply", "stl"])
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:%064d\nsize 5\n" % 7, "a Git LFS pointer found, "),
+        (b"/annex/objects/MD5E-s5--0.obj\n", "a git-annex pointer found, "),
+        (b"../.git/annex/objects/aa/bb/MD5E-s5--0/MD5E-s5--0", "a git-annex pointer found, "),
+        (b"\n <!DOCTYPE  html>\n<html lang='en'>" + bytes(100), "a web page found, "),
+    ],
+)
+def test_what_was_brought_instead_of_the_file(tmp_path: Path, told: str, data: bytes, message: str) -> None:
+    path = tmp_path / f"mesh.{told}"
+    path.write_bytes(data)
+    assert refused(path).startswith(f"{path}: {message}a mesh expected; ")
+
+
+def test_utf_16(tmp_path: Path) -> None:
+    """Also without a byte-order mark: with zeros for blanks, `10` would be read as two numbers."""
+    for kind in ("obj", "ply", "stl"):
+        path = tmp_path / f"mesh.{kind}"
+        for encoding in ("utf-16", "utf-16-le", "utf-16-be", "utf-32", "utf-32-le", "utf-32-be"):
+            path.write_bytes(OBJ.replace(b"v 1 ", b"v 10 ").decode().encode(encoding))
+            assert "UTF-16 or UTF-32 text found" in refused(path)
+
+
+def test_other_suffixes_are_refused_unless_told(tmp_path: Path) -> None:
+    for name in ("mesh.off", "mesh", "mesh.obj.bak", "mesh.gz", "obj"):
+        path = tmp_path / name
+        path.write_bytes(OBJ)
+        message = refused(path)
+        assert ".obj, .ply, .stl expected" in message
+        assert "--input-format" in message
+        assert read_mesh_file(path, input_format="obj").polygons == 2
+    with pytest.raises(UsageError, match="`off` is not known"):
+        read_mesh_file(tmp_path / "mesh.off", input_format="off")
