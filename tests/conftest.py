@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -34,6 +35,14 @@ def _listen() -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """A shell in the background passes on that Ctrl-C is to be ignored; programs under test listen to it."""
     _listen()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Neighbours stay in one process, so that what a module has worked out is worked out once."""
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log) if config.getvalue("dist") == "load" else None
 
 
 def pytest_runtest_teardown(item: pytest.Item) -> None:
