@@ -13,6 +13,7 @@ from .census import duplicate_faces, duplicate_vertices
 from .errors import Notice
 from .loading.weld import weld_exact
 from .plurals import agree, counted
+from .precision import is_single
 from .surface import Surface
 from .topology import find_edges
 
@@ -200,7 +201,7 @@ def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterat
     edge_length = np.sqrt(dot(span, span))
     blurred = np.flatnonzero(rounding_of_K(surface, edge_length, last_place(surface), TRUSTED) > TRUSTED)
     what, bound = "coordinates", TRUSTED
-    if not len(blurred) and _all_single(surface):
+    if not len(blurred) and is_single(surface.xyz_given):
         place = last_place(surface, np.float32)
         blurred = np.flatnonzero(rounding_of_K(surface, edge_length, place, TRUSTED_SINGLE) > TRUSTED_SINGLE)
         what, bound = "coordinates, which are all float32 numbers,", TRUSTED_SINGLE
@@ -230,12 +231,6 @@ def _more_digits(surface: Surface) -> str:
     if largest / 16 > (used.max(axis=1) / 2 - used.min(axis=1) / 2).max():
         return "the mesh is small against its distance from the origin: move it there before it is written"
     return "edges are that short against the mesh: more digits in the file, or --weld TOL, which merges their ends"
-
-
-def _all_single(surface: Surface) -> bool:
-    """Whether every coordinate is a float32 number, as in binary STL and most PLY files."""
-    with np.errstate(over="ignore", under="ignore"):
-        return all(bool((row.astype(np.float32) == row).all()) for row in surface.xyz_given)
 
 
 def last_place(surface: Surface, kind: type[np.floating[Any]] = np.float64) -> float:
