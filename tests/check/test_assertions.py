@@ -100,9 +100,14 @@ def test_conventions_apply() -> None:
 def test_every_number_of_a_table_can_be_asserted() -> None:
     body = meshes.grid()
     analysis = analyze((body.points, body.faces))
+    known = 0
     for column, quantity in columns().items():
         if not quantity.labels:
-            parse(f"min({column}) < 0").judge(analysis)
+            held, value, words = parse(f"min({column}) < 0").judge(analysis)
+            assert held == (value is not None and value < 0)
+            assert words.startswith(f"min({column}) {'is undefined' if value is None else '= '}")
+            known += value is not None
+    assert known > 50
 
 
 @pytest.mark.parametrize(
