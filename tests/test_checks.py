@@ -87,6 +87,44 @@ def test_the_volume_notices_a_disturbed_vector_area(name: str) -> None:
         assert check.status == "fail"
 
 
+@pytest.mark.parametrize("name", ["ellipsoid", "cap", "klein_bottle"])
+def test_values_at_the_wrong_vertices_are_noticed(name: str) -> None:
+    """The sum of forces is the same; their moments are not."""
+    surface = meshes.zoo(name).surface()
+    found = columns(surface)
+    one, other = np.flatnonzero(surface.interior)[[2, 9]]
+    values = found["H_vec"].copy()
+    values[:, [one, other]] = values[:, [other, one]]
+    swapped = found | {"H_vec": values}
+    for check, status in {"force_balance": "pass", "torque_balance": "fail", "position_balance": "fail"}.items():
+        assert [result.status for result in run(check, surface, found)] == ["pass"]
+        assert [result.status for result in run(check, surface, swapped)] == [status], check
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "cap", "klein_bottle"])
+@pytest.mark.parametrize("change", [1e-9, np.pi])
+def test_transport_round_a_vertex_notices_its_curvature(change: float, name: str) -> None:
+    surface = meshes.zoo(name).surface()
+    found = columns(surface)
+    assert [result.status for result in run("holonomy", surface, found)] == ["pass"]
+    for vertex in np.flatnonzero(surface.interior)[::7]:
+        values = found["K"].copy()
+        values[vertex] += change
+        assert [result.status for result in run("holonomy", surface, found | {"K": values})] == ["fail"]
+
+
+@pytest.mark.parametrize("column", ["area_gradient", "A_vec"])
+def test_first_variations_notice_gradients_that_are_none(column: str) -> None:
+    """Off by a millionth, at any of the vertices that are moved."""
+    surface = meshes.tetrahedron().surface()
+    found = columns(surface)
+    assert [result.status for result in run("first_variation", surface, found)] == ["pass"]
+    for vertex in range(surface.n_vertices):
+        values = found[column].copy()
+        values[:, vertex] *= 1 + 1e-6
+        assert [result.status for result in run("first_variation", surface, found | {column: values})] == ["fail"]
+
+
 def test_every_public_integral_is_guarded_by_a_check() -> None:
     """A column whose sum is an identity's side is named in the needs of some check."""
     from curvcli.declare import passes
