@@ -81,14 +81,19 @@ def limited() -> bool:
     return resource.getrlimit(resource.RLIMIT_AS)[0] != resource.RLIM_INFINITY
 
 
+def address_space() -> int:
+    """Bytes of address space that this process has reserved. Errors: OSError where the system does not tell."""
+    with open("/proc/self/statm", encoding="ascii") as stream:
+        return int(stream.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+
+
 def available() -> int | None:
     """Bytes that this process can still allocate; None where the system does not tell."""
     try:
         import resource
 
         limit, _ = resource.getrlimit(resource.RLIMIT_AS)
-        with open("/proc/self/statm", encoding="ascii") as stream:
-            used = int(stream.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+        used = address_space()
         with open("/proc/meminfo", encoding="ascii") as stream:
             known = dict(line.split(":") for line in stream)
         free = int(known["MemAvailable"].split()[0]) * 1024 + int(known["SwapFree"].split()[0]) * 1024

@@ -7,6 +7,7 @@ import hashlib
 import io
 import os
 import time
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -125,7 +126,7 @@ def _hash(item: Item) -> str | None:
 
 
 @contextlib.contextmanager
-def _timed(timings: dict[str, float], name: str) -> Any:
+def _timed(timings: dict[str, float], name: str) -> Iterator[None]:
     start = time.perf_counter()
     yield
     timings[name] = time.perf_counter() - start

@@ -67,7 +67,7 @@ def _answer(stream: BinaryIO, answer: Ready | Done) -> None:
 
 def _limit(memory: int) -> None:
     """Bound the address space at what the program itself takes and this much more."""
-    from ..memory import require_polars
+    from ..memory import address_space, require_polars
 
     require_polars(0)
     import polars as pl
@@ -76,6 +76,5 @@ def _limit(memory: int) -> None:
     with contextlib.suppress(ImportError, OSError):
         import resource
 
-        with open("/proc/self/statm", encoding="ascii") as stream:
-            used = int(stream.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-        resource.setrlimit(resource.RLIMIT_AS, (used + memory, used + memory))
+        limit = address_space() + memory
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))

@@ -14,7 +14,7 @@ from .darboux import Darboux
 from .frames import Bishop, Frenet, twist
 from .identities import Identity, identities
 from .loops import complete_sum, components, linking, pull, vector_area
-from .plane import plane_curves
+from .plane import PlaneCurves, plane_curves
 from .polygon import Floats
 from .turning import Turning
 from .writhe import MAX_EDGES, within, writhe
@@ -41,7 +41,7 @@ class CurveMeasures:
         return identities(self.turning, self.plane, self.bishop, self.writhe)
 
     @cached_property
-    def plane(self) -> Any:
+    def plane(self) -> PlaneCurves:
         """The planes of the curves."""
         return plane_curves(self.turning)
 

@@ -8,13 +8,17 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..memory import require_polars
+
+if TYPE_CHECKING:
+    import polars as pl
 
 BLANK, NEWLINE = 32, 10
 _BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
@@ -247,7 +251,7 @@ def _read_tokens_slowly(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[n
     return numbers, known
 
 
-def _read_csv(data: bytes, schema: dict, separator: str, columns: range):  # type: ignore[no-untyped-def, type-arg]
+def _read_csv(data: bytes, schema: Mapping[str, type[pl.DataType]], separator: str, columns: range) -> pl.DataFrame:
     import polars as pl
 
     return pl.read_csv(

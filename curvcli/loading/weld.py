@@ -14,6 +14,7 @@ from .model import MeshFile
 _CROWD = 200
 """Positions near a vertex, on average, of which a tolerance is too large for the mesh."""
 _BLOCK = 16384
+# Odd multipliers whose bits are well spread, one for each coordinate and one for the end.
 _MIX = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0xD6E8FEB86659FD93)
 
 

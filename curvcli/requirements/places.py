@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..plurals import counted
 from ..surface import Surface
 
 
-def counted(count: int, one: str, many: str, first: str) -> str:
+def located(count: int, one: str, many: str, first: str) -> str:
     """`1 edge … (edge 2-7)` or `3 edges … (first: edge 2-7)`."""
-    return f"{count} {one} ({first})" if count == 1 else f"{count:,} {many} (first: {first})"
+    return f"{counted(count, one, many)} ({first if count == 1 else f'first: {first}'})"
 
 
 def edge_name(surface: Surface, edge: Any) -> str:
@@ -28,17 +29,17 @@ def face_name(surface: Surface, face: Any) -> str:
 def edges(surface: Surface, mask: NDArray[np.bool_], what: str) -> str:
     """Edges where the mask holds, or nothing."""
     where = np.flatnonzero(mask)
-    return counted(len(where), f"edge {what}", f"edges {what}", edge_name(surface, where[0])) if len(where) else ""
+    return located(len(where), f"edge {what}", f"edges {what}", edge_name(surface, where[0])) if len(where) else ""
 
 
 def faces(surface: Surface, where: NDArray[np.integer[Any]], what: str) -> str:
     """The faces given, or nothing."""
-    return counted(len(where), f"face {what}", f"faces {what}", face_name(surface, where[0])) if len(where) else ""
+    return located(len(where), f"face {what}", f"faces {what}", face_name(surface, where[0])) if len(where) else ""
 
 
 def vertices(where: NDArray[np.integer[Any]], one: str, many: str) -> str:
     """The vertices given, or nothing."""
-    return counted(len(where), f"vertex {one}", f"vertices {many}", f"vertex {where[0]}") if len(where) else ""
+    return located(len(where), f"vertex {one}", f"vertices {many}", f"vertex {where[0]}") if len(where) else ""
 
 
 def joined(*problems: str) -> str:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import plurals
 from ..analysis import Analysis
 from ..census import duplicate_faces, duplicate_vertices
+from ..plurals import counted
 from .base import requirement
-from .places import counted, faces, joined, vertices
+from .places import faces, joined, located, vertices
 
 # Faces that the reader or the surface dropped, which no later count sees.
 _DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
@@ -19,9 +19,9 @@ def no_degenerate(analysis: Analysis) -> str:
     """Every face has an area, and none had to be dropped."""
     surface = analysis.surface
     dropped = [
-        counted(notice.count, f"face {what}", f"faces {what}", f"face {notice.examples[0]}")
+        located(notice.count, f"face {what}", f"faces {what}", f"face {notice.examples[0]}")
         if notice.examples
-        else plurals.counted(notice.count, f"face {what}", f"faces {what}")
+        else counted(notice.count, f"face {what}", f"faces {what}")
         for notice in surface.notices
         if (what := _DROPPED.get(notice.code))
     ]

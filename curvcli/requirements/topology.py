@@ -9,7 +9,7 @@ import numpy as np
 from ..analysis import Analysis
 from ..census import census, classify
 from .base import requirement
-from .places import counted, edges, face_name, joined, vertices
+from .places import edges, face_name, joined, located, vertices
 
 
 @requirement(
@@ -47,7 +47,7 @@ def oriented(analysis: Analysis) -> str:
     faces = np.flatnonzero(lost[surface.orientation.patch])
     patches = int(np.count_nonzero(lost))
     first = face_name(surface, faces[0]) if len(faces) else ""
-    return counted(patches, "patch without an orientation", "patches without an orientation", first) if patches else ""
+    return located(patches, "patch without an orientation", "patches without an orientation", first) if patches else ""
 
 
 @requirement(
@@ -66,7 +66,7 @@ def outward(analysis: Analysis) -> str:
     turned = np.flatnonzero(surface.inside_out)
     if len(turned):
         first = face_name(surface, np.flatnonzero(surface.orientation.patch == turned[0])[0])
-        return counted(len(turned), "closed patch is inside out", "closed patches are inside out", first)
+        return located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
     if not (surface.closed_patches & surface.orientation.orientable).any():
         return "no patch is closed and orientable, so that none has an outside"
     return ""

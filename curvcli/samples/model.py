@@ -101,18 +101,18 @@ class SampleSpec:
         values: dict[str, int | float | bool] = {}
         for name, text in settings.items():
             key = name.strip().replace("-", "_")
-            demand(key in kinds, f"sample {self.name} has no parameter {name!r}; it has {', '.join(kinds) or 'none'}")
+            self._demand_known(key, name)
             values[key] = _value(key, text.strip(), kinds[key])
         return values
 
+    def _demand_known(self, key: str, typed: str) -> None:
+        known = [parameter.name for parameter in self.parameters]
+        demand(key in known, f"sample {self.name} has no parameter {typed!r}; it has {', '.join(known) or 'none'}")
+
     def __call__(self, **values: int | float | bool) -> Sample:
         """Make the surface; UsageError for a parameter it does not have or a value it cannot be made with."""
-        known = {parameter.name for parameter in self.parameters}
         for name, value in values.items():
-            demand(
-                name in known,
-                f"sample {self.name} has no parameter {name!r}; it has {', '.join(sorted(known)) or 'none'}",
-            )
+            self._demand_known(name, name)
             demand(math.isfinite(value), f"{name} must be finite, not {value!r}")
         made = self.function(**values)
         # Writers and the readers of raw memory want rows one after the other, however the formulas stacked them.

@@ -13,6 +13,9 @@ from .facts import nonorientable
 from .grids import disk, looped, rings_for, split, table, triangles
 from .model import Columns, FloatArray, Sample, demand, demand_positive
 
+ComplexArray = NDArray[np.complex128]
+Plane = tuple[FloatArray, FloatArray]
+
 
 @sample(
     summary="a Moebius strip, embedded, one boundary loop",
@@ -92,10 +95,6 @@ def _three_ends(w: ComplexArray) -> tuple[FloatArray, ComplexArray, ComplexArray
         values.append((top(w) / below(w), slope(w) / below(w) ** 2, bend(w) / below(w) ** 3))
     f, first, second = (np.stack(parts, axis=1) for parts in zip(*values, strict=True))
     return f.real - np.array([0.0, 0.0, 0.5]), first, second
-
-
-ComplexArray = NDArray[np.complex128]
-Plane = tuple[FloatArray, FloatArray]
 
 
 def _half_turned(u: FloatArray, radius: float, profile: Plane, slope: Plane, bend: Plane) -> tuple[FloatArray, Columns]:
