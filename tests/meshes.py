@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -30,6 +31,13 @@ class Mesh(NamedTuple):
 
     def with_faces(self, faces: object) -> Mesh:
         return Mesh(self.points, np.array(faces, np.int32).reshape(-1, 3))
+
+    def write(self, path: Path) -> Path:
+        """As an OBJ file, every digit of every coordinate."""
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in self.points.tolist()]
+        lines += [f"f {a} {b} {c}" for a, b, c in (self.faces + 1).tolist()]
+        path.write_text("\n".join(lines) + "\n")
+        return path
 
 
 def mesh(points: object, faces: object) -> Mesh:

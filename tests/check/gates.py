@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from curvcli.analysis import analyze
@@ -27,10 +26,3 @@ def outcome(mesh: CheckedMesh, name: str, scope: str = "whole") -> Outcome:
 
 def report(*meshes: CheckedMesh, exit_code: int = 1, require: str = "", asserted: tuple[str, ...] = ()) -> CheckReport:
     return report_of(plan([require] if require else [], [], asserted).rules, list(meshes), exit_code)
-
-
-def write_obj(path: Path, given: Mesh) -> Path:
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in given.points.tolist()]
-    lines += [f"f {a} {b} {c}" for a, b, c in (given.faces + 1).tolist()]
-    path.write_text("\n".join(lines) + "\n")
-    return path

@@ -13,7 +13,6 @@ import junitparser
 import pytest
 
 from tests import meshes
-from tests.check.gates import write_obj
 from tests.cli.program import CUBE, DISK, MOBIUS, Ended, command, curvcli, environment
 from tests.shared import SHARED, needs_shared
 
@@ -174,7 +173,7 @@ def test_a_stream(tmp_path: Path) -> None:
 
 def test_regions_are_checked_one_by_one(tmp_path: Path) -> None:
     body = meshes.torus()
-    path, labels = write_obj(tmp_path / "torus.obj", body), tmp_path / "labels.txt"
+    path, labels = body.write(tmp_path / "torus.obj"), tmp_path / "labels.txt"
     labels.write_text("".join(f"{face % 3}\n" for face in range(len(body.faces))))
     ended = curvcli("check", path, "--regions", labels, "--format", "json")
     assert ended.code == 0

@@ -199,11 +199,7 @@ def test_conventions() -> None:
 
 
 def test_orient(tmp_path: Path) -> None:
-    body = meshes.reversed_faces(meshes.tetrahedron())
-    file = tmp_path / "in.obj"
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in body.points.tolist()]
-    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in body.faces.tolist()]
-    file.write_text("\n".join(lines) + "\n")
+    file = meshes.reversed_faces(meshes.tetrahedron()).write(tmp_path / "in.obj")
     kept, turned = report(file), report(file, "--orient", "outward")
     assert kept["totals"]["volume"] == -5.0
     assert turned["totals"]["volume"] == 5.0

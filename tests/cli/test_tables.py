@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 import curvcli
 from curvcli.analysis import Analysis
 from curvcli.declare import Element, passes
-from curvcli.samples import get
 from tests.cli.program import Ended, wrote
+from tests.meshes import of_sample
 
 Run = Callable[..., Ended]
 SUFFIXES = (".csv", ".tsv", ".parquet", ".npz")
@@ -24,11 +24,8 @@ NAMES = ["mobius", "annulus", "two_components", "book", "pinched"]
 
 def saved(name: str, folder: Path) -> tuple[Path, Path]:
     """A sample as OBJ, and labels for its faces: thirds of the list, one of them without a label."""
-    made = get(name)(size=120)
-    mesh, labels = folder / f"{name}.obj", folder / "labels.txt"
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in made.points.tolist()]
-    lines += [f"f {a} {b} {c}" for a, b, c in (made.faces + 1).tolist()]
-    mesh.write_text("\n".join(lines))
+    made = of_sample(name, size=120)
+    mesh, labels = made.write(folder / f"{name}.obj"), folder / "labels.txt"
     count = len(made.faces)
     labels.write_text("\n".join(str(3 * k // count - (k == 5) * 9) for k in range(count)))
     return mesh, labels

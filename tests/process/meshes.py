@@ -22,14 +22,6 @@ def write(name: str, size: int, path: Path) -> Path:
     return path
 
 
-def write_obj(given: Mesh, path: Path) -> Path:
-    """Every digit of every coordinate."""
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in given.points.tolist()]
-    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in given.faces.tolist()]
-    path.write_text("\n".join(lines) + "\n")
-    return path
-
-
 def scaled(exponent: int) -> Mesh:
     """A sphere in units of a power of two, which costs no digit while its coordinates are normal numbers."""
     return icosphere().moved(np.ldexp(icosphere().points, exponent))

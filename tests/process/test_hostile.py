@@ -15,7 +15,7 @@ import pytest
 
 from curvcli.commands.main import cli
 from tests.cli.program import environment
-from tests.process.meshes import HOSTILE, write_obj
+from tests.process.meshes import HOSTILE
 
 WORDS = re.compile(r"(?<![A-Za-z])[-+]?(?:nan|inf|infinity|1\.#\w+)(?![A-Za-z])", re.IGNORECASE)
 TABLES = ("edges", "faces", "loops", "components")
@@ -34,7 +34,7 @@ def numbers(value: Any) -> Iterator[float]:
 @pytest.mark.parametrize("name", HOSTILE)
 def test_an_answer_without_words_for_numbers(name: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """Warnings of numpy and of Python are errors here; the summary, the report and every table are read."""
-    mesh = write_obj(HOSTILE[name](), tmp_path / "mesh.obj")
+    mesh = HOSTILE[name]().write(tmp_path / "mesh.obj")
     outputs = {kind: tmp_path / f"{kind}.csv" for kind in TABLES}
     tables = [word for kind, path in outputs.items() for word in ("--table", f"{kind}={path}")]
     files = [word for suffix in ("csv", "json", "ply", "obj") for word in ("-o", str(tmp_path / f"k.{suffix}"))]
@@ -67,7 +67,7 @@ def test_an_answer_without_words_for_numbers(name: str, tmp_path: Path, capfd: p
 
 def test_as_a_process_no_warning_reaches_the_user(tmp_path: Path) -> None:
     names = ("2^664", "2^-1060", "all at a point", "needles", "a speck", "3000 pages")
-    given = [str(write_obj(HOSTILE[name](), tmp_path / f"{name}.obj")) for name in names]
+    given = [str(HOSTILE[name]().write(tmp_path / f"{name}.obj")) for name in names]
     line = [sys.executable, "-W", "error", "-m", "curvcli", "analyze", *given, "-q", "-p", "all", "-o", "{stem}.csv"]
     done = subprocess.run(line, cwd=tmp_path, env=environment(), capture_output=True, timeout=120)
     assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")

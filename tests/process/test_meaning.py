@@ -20,7 +20,7 @@ from curvcli.report.proof import proof
 from curvcli.surface import Surface
 from tests import meshes
 from tests.meshes import Mesh
-from tests.process.meshes import HOSTILE, cut_apart, scaled, seam, shifted, write_obj
+from tests.process.meshes import HOSTILE, cut_apart, scaled, seam, shifted
 
 
 def analysis(given: Mesh, passes: str = "core", noise: float | None = None) -> Analysis:
@@ -159,7 +159,7 @@ def test_the_hint_says_what_welding_really_does() -> None:
 def test_from_hint_to_result(make: object, closed: int | None, tmp_path: Path) -> None:
     """Following the hint does what it says, on a file."""
     assert callable(make)
-    path = write_obj(make(), tmp_path / "mesh.obj")
+    path = make().write(tmp_path / "mesh.obj")
     before, after = curvcli.analyze(curvcli.load(path)), curvcli.analyze(curvcli.load(path, weld="exact"))
     told = notice(before, "duplicate_vertices")
     assert told is not None

@@ -11,7 +11,6 @@ import pytest
 
 from tests.cli.program import command, curvcli, environment, served, start
 from tests.meshes import ellipsoid, torus
-from tests.process.meshes import write_obj
 from tests.process.watch import feed
 
 
@@ -97,7 +96,7 @@ def test_two_runs_on_one_output(force: list[str], tmp_path: Path) -> None:
     """Both have looked at the output before either writes; then one mesh is given, then the other."""
     given = {}
     for name, made in (("torus", torus()), ("ellipsoid", ellipsoid())):
-        given[name] = write_obj(made, tmp_path / f"{name}.obj").read_bytes()
+        given[name] = made.write(tmp_path / f"{name}.obj").read_bytes()
         alone = curvcli(
             "analyze", "-", "--input-format", "obj", "-q", "-o", tmp_path / f"{name}.csv", given=given[name]
         )
