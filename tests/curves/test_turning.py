@@ -21,6 +21,8 @@ def test_regular_polygons(n: int) -> None:
     np.testing.assert_allclose(curve.tan2, 2 * np.tan(psi / 2), atol=3e-14)
     assert curve.length == pytest.approx(2 * n * np.sin(np.pi / n), rel=1e-14)
     assert curve.total_curvature == pytest.approx(TURN, rel=1e-14)
+    assert curve.total_sin2 == pytest.approx(2 * n * np.sin(psi / 2), rel=1e-13)
+    assert curve.total_tan2 == pytest.approx(2 * n * np.tan(psi / 2), rel=1e-13)
     assert curve.turning_number == 1
     assert curve.unknotted is True
     assert curve.repeated_points == 0
