@@ -16,6 +16,7 @@ from tests.exact_values import MESHES
 
 ROOT = Path(__file__).resolve().parents[2]
 SERVER = Path(__file__).with_name("server.py")
+STRICT = {"PYTHONWARNINGS": "error::RuntimeWarning"}
 CUBE, DISK, MOBIUS, UNREFERENCED = (str(MESHES[name]) for name in ("cube", "disk", "mobius", "unreferenced"))
 
 
@@ -48,20 +49,20 @@ def served(*arguments: str | Path) -> list[str]:
     """The same command as a process that begins with all modules imported, in a twentieth of the time."""
     if sys.platform != "linux":  # elsewhere libraries may not survive a fork
         return command(*arguments)
-    return [sys.executable, "-S", "-I", str(SERVER), _address(), "--ask", *map(str, arguments)]
+    return [sys.executable, "-S", "-I", str(SERVER), address(), "--ask", *map(str, arguments)]
 
 
 @cache
-def _address() -> str:
+def address() -> str:
     """Where a server answers that ends with these tests."""
     place = TemporaryDirectory(prefix="curvcli-")  # the name of a socket has to be short
-    address = Path(place.name, "socket")
-    server = subprocess.Popen([sys.executable, SERVER, address], stdin=PIPE, stdout=PIPE, env=environment())
+    socket = Path(place.name, "socket")
+    server = subprocess.Popen([sys.executable, SERVER, socket], stdin=PIPE, stdout=PIPE, env=environment(**STRICT))
     assert server.stdout is not None
     assert server.stdout.readline() == b"ready\n"
     atexit.register(place.cleanup)
     atexit.register(server.communicate)
-    return str(address)
+    return str(socket)
 
 
 def start(*arguments: str | Path, **settings: Any) -> subprocess.Popen[bytes]:

@@ -13,6 +13,7 @@ import select
 import socket
 import sys
 import traceback
+from collections.abc import Sequence
 
 # What a command imports; no threads are started by importing these, so that a fork is whole.
 MODULES = (
@@ -23,14 +24,20 @@ MODULES = (
 )
 
 
-def ask(address: str, arguments: list[str]) -> int:
-    """Have a command run; its exit code."""
+def ask(address: str, arguments: list[str], streams: Sequence[int] = (0, 1, 2), limit: int = 0) -> list[int]:
+    """Have a command run; its exit code, its peak of memory in kB and its milliseconds of processor time.
+
+    limit: seconds of processor time after which the system ends it.
+    """
     with socket.socket(socket.AF_UNIX) as line:
+        line.settimeout(4 * limit or None)
         line.connect(address)
-        order = json.dumps([arguments, os.getcwd(), dict(os.environ)]).encode()
-        socket.send_fds(line, [len(order).to_bytes(8, "big")], [0, 1, 2])
+        order = json.dumps([arguments, os.getcwd(), dict(os.environ), limit]).encode()
+        socket.send_fds(line, [len(order).to_bytes(8, "big")], streams)
         line.sendall(order)
-        return int(line.makefile().read())
+        with line.makefile() as answers:
+            found: list[int] = json.loads(answers.read())
+            return found
 
 
 def serve(address: str) -> None:
@@ -61,12 +68,12 @@ def serve(address: str) -> None:
 
 
 def answer(line: socket.socket) -> None:
-    """Run the command that was ordered in a child, and tell its exit code."""
+    """Run the command that was ordered in a child, and tell how it ended and what it took."""
     size, streams, _, _ = socket.recv_fds(line, 8, 3)
     order = b""
     while len(order) < int.from_bytes(size, "big"):
         order += line.recv(1 << 16)
-    arguments, folder, environment = json.loads(order)
+    arguments, folder, environment, limit = json.loads(order)
     child = os.fork()
     if child == 0:
         line.close()
@@ -81,11 +88,16 @@ def answer(line: socket.socket) -> None:
         os.environ.clear()
         os.environ.update(environment)
         sys.argv = ["curvcli", *arguments]
+        if limit:
+            import resource
+
+            resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
         run()
     for stream in streams:
         os.close(stream)
-    _, status = os.waitpid(child, 0)
-    line.sendall(str(os.waitstatus_to_exitcode(status)).encode())
+    _, status, used = os.wait4(child, 0)
+    spent = round(1000 * (used.ru_utime + used.ru_stime))
+    line.sendall(json.dumps([os.waitstatus_to_exitcode(status), used.ru_maxrss, spent]).encode())
 
 
 def run() -> None:
@@ -107,5 +119,5 @@ def run() -> None:
 
 if __name__ == "__main__":
     if sys.argv[2:3] == ["--ask"]:
-        sys.exit(ask(sys.argv[1], sys.argv[3:]))
+        sys.exit(ask(sys.argv[1], sys.argv[3:])[0])
     serve(sys.argv[1])

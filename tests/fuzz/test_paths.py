@@ -14,6 +14,7 @@ import pytest
 
 import curvcli
 from curvcli.loading import content
+from tests.cli.program import environment, served
 from tests.fuzz.contract import in_process
 
 OBJ = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -22,9 +23,8 @@ BROKEN = OBJ + b"f 1 2 9\n"
 
 def run(*words: str | bytes, cwd: Path, **options: Any) -> tuple[int, bytes, bytes]:
     """Code, stdout and stderr of a real process."""
-    environment = os.environ | {"PYTHONPATH": str(Path(curvcli.__file__).parents[1])}
-    command: list[Any] = [sys.executable, "-m", "curvcli", "analyze", *words]
-    ran = subprocess.run(command, capture_output=True, cwd=cwd, env=environment, timeout=60, check=False, **options)
+    command: list[Any] = [*served("analyze"), *words]
+    ran = subprocess.run(command, capture_output=True, cwd=cwd, env=environment(), timeout=60, check=False, **options)
     return ran.returncode, ran.stdout, ran.stderr
 
 
