@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator, Sequence
 from typing import Literal
 
 import numpy as np
@@ -11,23 +12,27 @@ from numpy.typing import NDArray
 from ..blocks import Floats, by_corner, dot, face_blocks, triangles
 from ..declare import Flags, VectorColumn, curvature_pass
 from ..errors import InputError
-from ..neighbourhoods import Pattern, neighbourhoods
+from ..neighbourhoods import Pattern, as_weights, neighbourhoods
 from ..settings import Scale, rings
 from ..surface import Surface
 from ..threads import for_each
 from .star import null_where
-from .tensor import WHERE, frame
+from .tensor import ENTRIES, WHERE, frame
 
 # Pairs of neighbours per block; temporaries stay in the second-level cache.
 _PAIRS = 16384
 # How much less the normal of a vertex with half a star counts.
 _ONE_SIDED = 2.0**-10
-# A full step averages the errors of single normals away. What neighbours err alike it turns round, and the next one
-# back again along with the step's own error of third order: their number is even. Over one ring there is little to
-# average, and two damped steps leave less.
-_FULL, _DAMPED = (1.0, 1.0, 1.0, 1.0), (0.7, 0.7)
+# A full step averages away what alternates between neighbours. What neighbours err alike it turns round, and the next
+# one back again along with the step's own error of third order: their number is even. Their sizes lie about 1 so that
+# together they leave least of those errors of which a full step leaves up to this part.
+_LEFT = 0.75
+# Over one ring there is little to average, and two damped steps leave less.
+_DAMPED = (0.7, 0.7)
 # Chords that lie so nearly in one direction fix no normal.
 _IN_LINE = 1e-6
+# Chords shorter than this part of the component, squared, are lost in moments about its middle.
+_LOST = 1e-10
 
 
 @curvature_pass(public=False, kind="direction", vector=True, parity="odd")
@@ -95,38 +100,119 @@ def fitted_normal(
     weight = None
     if not everywhere or not surface.interior.all():
         weight = np.where(known, np.where(surface.interior, 1.0, _ONE_SIDED), 0.0)
-    fit = _Fit(surface, scale, weight)
     normal = star_normal if everywhere else np.where(known, star_normal, 0.0)
-    for step in _DAMPED if scale == rings(1) else _FULL:
-        normal = fit.turned(normal, step)
+    normal = _Fit(surface, scale, weight).normals(normal, _steps(scale))
     return normal if everywhere else null_where(~known, normal)
 
 
+def _steps(scale: Scale) -> Sequence[float]:
+    """The sizes of the steps: 1/(1 ± √y), y the roots of a Chebyshev polynomial between 0 and the square of _LEFT."""
+    if scale == rings(1):
+        return _DAMPED
+    pairs = 2 if scale.kind == "rings" and scale.size > 2 else 3  # many neighbours share errors sooner
+    part = [_LEFT * math.cos((k + 0.5) * math.pi / (2 * pairs)) for k in range(pairs)]
+    return [1 / (1 + sign * each) for each in part for sign in (1, -1)]
+
+
 class _Fit:
-    """Least squares over the chords d = x_q − x_p of all neighbourhoods: Σ (d ⊗ d) n_p = −Σ d (n_q·d)."""
+    """Least squares over the chords d = x_q − x_p of all neighbourhoods: Σ d ((n_p + n_q)·d) = 0.
+
+    The first residual is summed over all pairs. What a step then changes is small, and is summed from moments about the
+    middle of the component: Σ d (m_q·d) = Σ x (x·m) − x_p Σ x·m − (Σ x ⊗ m) x_p + x_p (x_p·Σ m).
+    """
 
     def __init__(self, surface: Surface, scale: Scale, weight: Floats | None) -> None:
         self._surface, self._scale, self._weight = surface, scale, weight
-        self._square = np.zeros((6, surface.n_vertices))
-        self._new = True
+        members = surface.components.vertices
+        used = np.where(surface.referenced, surface.xyz, np.nan)
+        low, high = (np.array([sign * members.max(sign * x) for x in used]) for sign in (-1.0, 1.0))
+        middle, extent = low + 0.5 * (high - low), (high - low).max(axis=0)
+        several = members.label is not None
+        self._at = np.array(surface.xyz) - (middle[:, members.label] if several else middle)
+        self._lost = _LOST * np.square(extent[members.label] if several else np.full(surface.n_vertices, extent[0]))
+        self._square = np.empty((6, surface.n_vertices))
+        self._residual = np.empty((3, surface.n_vertices))
+        self._by_pairs: set[int] = set()
 
-    def turned(self, normal: VectorColumn, step: float) -> VectorColumn:
-        """The normals after a step towards the solution, all vertices at once."""
-        found = np.empty_like(normal)
+    def normals(self, normal: VectorColumn, steps: Sequence[float]) -> VectorColumn:
+        """The normals after steps towards the solution, of all vertices at once."""
+        self._begin(normal)
+        for step in steps[:-1]:
+            turned = _solved(normal, self._square, self._residual, step)
+            self._add(turned - normal, turned)
+            normal = turned
+        return _solved(normal, self._square, self._residual, steps[-1])
 
-        def turn(rows: tuple[slice, Pattern]) -> None:
-            block, pattern = rows
-            image = self._image(block, pattern, normal)
-            found[:, block] = _solved(normal[:, block], self._square[:, block], image, step)
+    def _begin(self, normal: VectorColumn) -> None:
+        """Σ d ⊗ d and the first residual."""
 
-        for_each(neighbourhoods(self._surface, self._scale), turn)
-        self._new = False
+        def squares(block: slice) -> list[Floats]:
+            at = self._at[:, block]
+            return [at[i] * at[j] for i, j in ENTRIES] + [*at, np.ones(at.shape[1])]
+
+        moments = self._weighted(10, squares)
+
+        def begin(found: tuple[slice, Pattern]) -> None:
+            block, rows = found
+            total, p = (as_weights(rows) @ moments).T, self._at[:, block]
+            square = self._square[:, block]
+            for row, (i, j) in zip(square, ENTRIES, strict=True):
+                row[:] = total[WHERE[i, j]] - total[6 + i] * p[j] - total[6 + j] * p[i] + total[9] * p[i] * p[j]
+            small = square[0] + square[3] + square[5] < self._lost[block] * total[9]
+            lost = small[np.diff(rows.indptr) > 0].any()
+            if lost or not self._surface.orientable:
+                self._by_pairs.add(block.start)
+            self._residual[:, block] = self._over_pairs(block, rows, normal, normal, square if lost else None)
+
+        for_each(neighbourhoods(self._surface, self._scale), begin)
+
+    def _add(self, change: VectorColumn, normal: VectorColumn) -> None:
+        """Add to the residual what a change of the normals adds."""
+
+        def products(block: slice) -> list[Floats]:
+            at, by = self._at[:, block], change[:, block]
+            along = dot(at, by)
+            return [*(at * along), along, *by] + [a * b for a in at for b in by]
+
+        moments = self._weighted(16, products)
+
+        def add(found: tuple[slice, Pattern]) -> None:
+            block, rows = found
+            if block.start in self._by_pairs:
+                self._residual[:, block] += self._over_pairs(block, rows, change, normal, None)
+                return
+            total, p = (as_weights(rows) @ moments).T, self._at[:, block]
+            height = dot(p, total[4:7]) - total[3]
+            square, own = self._square[:, block], change[:, block]
+            for i in range(3):
+                other = total[i] + p[i] * height - dot(p, total[7 + 3 * i : 10 + 3 * i])
+                self._residual[i, block] += other + dot(square[WHERE[i]], own)
+
+        for_each(neighbourhoods(self._surface, self._scale), add)
+
+    def _weighted(self, count: int, columns: Callable[[slice], list[Floats]]) -> Floats:
+        """(V, count) columns, given by blocks of vertices, times the weights."""
+        found = np.empty((self._surface.n_vertices, count))
+
+        def fill(block: slice) -> None:
+            np.stack(columns(block), axis=1, out=found[block])
+            if self._weight is not None:
+                found[block] *= self._weight[block, None]
+
+        for_each(face_blocks(len(found)), fill)
         return found
 
-    def _image(self, block: slice, rows: Pattern, normal: VectorColumn) -> Floats:
-        """(3, n) Σ d (n_q·d) of the rows of a block; Σ d ⊗ d, which stays the same, is worked out the first time."""
+    def _over_pairs(
+        self, block: slice, rows: Pattern, field: VectorColumn, normal: VectorColumn, square: Floats | None
+    ) -> Floats:
+        """(3, n) Σ d ((m_p + m_q)·d) of a field m over the rows of a block, and Σ d ⊗ d where it is asked for.
+
+        Without an orientation m_q is turned as the normal at q is to that at p.
+        """
         surface, count = self._surface, np.diff(rows.indptr)
-        image = np.zeros((3, len(count)))
+        found = np.zeros((3, len(count)))
+        if square is not None:
+            square[:] = 0.0
         for part in pair_blocks(rows.indptr):
             first, last = rows.indptr[part.start], rows.indptr[part.stop]
             if first == last:
@@ -134,19 +220,21 @@ class _Fit:
             q, each = rows.indices[first:last], count[part]
             here = slice(block.start + part.start, block.start + part.stop)
             chord = [x.take(q) - np.repeat(x[here], each) for x in surface.xyz]
-            other = [x.take(q) for x in normal]
-            height = dot(other, chord)
+            other = [x.take(q) for x in field]
             if not surface.orientable:
-                height *= np.copysign(1.0, dot(other, [np.repeat(x[here], each) for x in normal]))
+                turn = np.copysign(1.0, sum(x.take(q) * np.repeat(x[here], each) for x in normal))
+                other = [turn * x for x in other]
+            height = dot([a + np.repeat(x[here], each) for a, x in zip(other, field, strict=True)], chord)
             weighted = chord if self._weight is None else [self._weight.take(q) * x for x in chord]
             filled = np.flatnonzero(each)
             start = (rows.indptr[part.start : part.stop] - first)[filled]
             for k in range(3):
-                image[k, filled + part.start] = np.add.reduceat(weighted[k] * height, start)
-                for j in range(k, 3) if self._new else ():
-                    square = np.add.reduceat(weighted[k] * chord[j], start)
-                    self._square[WHERE[k, j], filled + here.start] = square
-        return image
+                found[k, filled + part.start] = np.add.reduceat(weighted[k] * height, start)
+                if square is None:
+                    continue
+                for j in range(k, 3):
+                    square[WHERE[k, j], filled + part.start] = np.add.reduceat(weighted[k] * chord[j], start)
+        return found
 
 
 def pair_blocks(indptr: NDArray[np.integer], size: int = _PAIRS) -> Iterator[slice]:
@@ -160,16 +248,22 @@ def pair_blocks(indptr: NDArray[np.integer], size: int = _PAIRS) -> Iterator[sli
         start = stop
 
 
-def _solved(normal: VectorColumn, square: Floats, image: Floats, step: float) -> VectorColumn:
-    """The normals turned a step towards the solution of square · n = −image within their tangent planes."""
-    u, v = frame(normal)
-    wanted = [-(image[k] + dot(square[WHERE[k]], normal)) for k in range(3)]
-    square_u = [dot(square[row], u) for row in WHERE]
-    uu, uv, vv = dot(u, square_u), dot(v, square_u), dot(v, [dot(square[row], v) for row in WHERE])
-    a, b = dot(u, wanted), dot(v, wanted)
-    determinant, trace = uu * vv - uv * uv, uu + vv
-    with np.errstate(divide="ignore", invalid="ignore"):
-        along_u, along_v = (vv * a - uv * b) / determinant, (uu * b - uv * a) / determinant
-        solution = along_u * u + along_v * v
-    usable = determinant > _IN_LINE * trace * trace
-    return _unit(normal + step * np.where(usable, solution, 0.0))
+def _solved(normal: VectorColumn, square: Floats, residual: Floats, step: float) -> VectorColumn:
+    """The normals turned a step towards the solution of square · change = −residual within their tangent planes."""
+    turned = np.empty_like(normal)
+
+    def turn(block: slice) -> None:
+        n, rest, m = normal[:, block], residual[:, block], square[:, block]
+        u, v = frame(n)
+        square_u = [dot(m[row], u) for row in WHERE]
+        uu, uv, vv = dot(u, square_u), dot(v, square_u), dot(v, [dot(m[row], v) for row in WHERE])
+        a, b = dot(u, rest), dot(v, rest)
+        determinant, trace = uu * vv - uv * uv, uu + vv
+        with np.errstate(divide="ignore", invalid="ignore"):
+            along_u, along_v = (uv * b - vv * a) / determinant, (uv * a - uu * b) / determinant
+            change = along_u * u + along_v * v
+        usable = determinant > _IN_LINE * trace * trace
+        turned[:, block] = _unit(n + step * np.where(usable, change, 0.0))
+
+    for_each(face_blocks(normal.shape[1]), turn)
+    return turned
