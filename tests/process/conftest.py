@@ -17,9 +17,9 @@ def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def middling(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """200,000 vertices in each format."""
+    """100,000 vertices in each format."""
     folder = tmp_path_factory.mktemp("middling")
-    return {suffix: write("torus", 200_000, folder / f"torus.{suffix}") for suffix in ("obj", "ply", "stl")}
+    return {suffix: write("torus", 100_000, folder / f"torus.{suffix}") for suffix in ("obj", "ply", "stl")}
 
 
 @pytest.fixture(scope="session")
