@@ -180,3 +180,29 @@ def test_a_large_fan_sums_to_its_defect() -> None:
     degree = 5000
     found: NDArray[np.float64] = curvcli.analyze(meshes.fan(degree, rise=0.0).surface(), "K").vertices["K"]
     assert abs(found[0]) <= 5e-14
+
+
+@pytest.mark.parametrize("scale", [2.0**-100, 1.0, 2.0**100])
+@pytest.mark.parametrize(("ratio", "lost"), [(0.9e-12, True), (1.1e-12, False), (1e-6, False)])
+def test_where_the_vector_area_is_lost(ratio: float, lost: bool, scale: float) -> None:
+    """What divides by |**A**_p| is null where that is below 1e-12 A_p; nothing else is."""
+    # The area vector of the first corner's star is minus that of the opposite face, which is as thin as told.
+    height = ratio * np.sqrt(2)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0.5, height]])
+    body = mesh(scale * corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    column = curvcli.analyze(body.surface(), "all").vertices
+    assert column["status"].tolist() == ["interior"] * 4
+    size = np.linalg.norm(column["A_vec"][0]) / column["A"][0]
+    assert size == pytest.approx(ratio, rel=1e-3)
+    for name in ("h", "h_signed", "h_perp", "h_normal", "willmore", "willmore_perp", "willmore_normal", "curvedness"):
+        assert np.isnan(column[name][0]) == lost, name
+    assert not any(np.isnan(column[name][0]) for name in ("h_hks", "willmore_hks", "K_density", "willmore_conformal"))
+
+
+@pytest.mark.parametrize(("cosine", "lost"), [(0.9e-12, True), (-0.9e-12, True), (1.1e-12, False), (-1.1e-12, False)])
+def test_where_the_normals_are_at_right_angles(cosine: float, lost: bool) -> None:
+    """h_normal is null where |**H**·**A**| < 1e-12 |**H**||**A**|, and has the sign of −**H**·**A** elsewhere."""
+    surface, ones = octahedron().surface(), np.ones(6)
+    H_vec, A_vec = np.outer([3.0, 0, 0], ones), np.outer([cosine, 1, 0], ones)
+    found = curvcli.passes.normal_ratio.compute(surface, H_vec, A_vec, ones)
+    np.testing.assert_allclose(found, np.full(6, np.nan if lost else -3 / cosine), rtol=1e-9)
