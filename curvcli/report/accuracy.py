@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import msgspec
 import numpy as np
-from rich import box
 from rich.markup import escape
 from rich.table import Table
 
@@ -16,6 +15,7 @@ from .._version import __version__
 from ..accuracy import ErrorNorms
 from .console import report_console
 from .differences import Side
+from .fitting import add_numbers, fitting, plain_table, roomy_table
 
 _NUMBERS = ("relative_l2", "linf", "rms", "bias", "relative_bias")
 
@@ -107,29 +107,44 @@ def show(found: Accuracy, verbose: int = 0) -> None:
     console.print(f"mesh [bold]{escape(found.mesh.path)}[/bold], exact values [bold]{escape(found.exact.path)}[/bold]")
     for note in found.notes:
         console.print(f"[yellow]note[/yellow] {escape(note)}")
-    shown = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in ("column", "against"):
-        shown.add_column(header, no_wrap=True)
-    for header in ("relative L2", "Linf", "at vertex", "RMS", "bias", "relative", "null", "compared"):
-        shown.add_column(header, justify="right", no_wrap=True)
-    for name, row in found.errors.items():
-        late = found.rtol is not None and row.relative_l2 is not None and row.relative_l2 > found.rtol
-        relative = _number(row.relative_l2)
-        shown.add_row(
-            name,
-            row.exact,
-            f"[bold red]{relative}[/bold red]" if late else relative,
-            _number(row.linf),
-            "" if row.vertex is None else str(row.vertex),
-            *(_number(value) for value in (row.rms, row.bias, row.relative_bias)),
-            f"{row.nulls:,}" if row.nulls else "",
-            f"{row.compared:,}",
-        )
-    console.print(shown)
+    console.print(fitting(console, _errors(found)))
     if found.unmatched:
         console.print(f"[dim]without an exact value: {', '.join(found.unmatched)}[/dim]")
     if not found.equal:
         console.print(f"[bold red]FAIL[/bold red]: a relative L2 error is above {found.rtol:g}")
+
+
+def _errors(found: Accuracy) -> Iterator[Table]:
+    """The norms of each column; fewer of them where the terminal is narrow."""
+    every = ("relative L2", "Linf", "at vertex", "RMS", "bias", "relative", "null", "compared")
+    both = ("column", "against")
+    for make, names, numbers in (
+        (roomy_table, both, every),
+        (plain_table, both, every),
+        (plain_table, both, every[:6]),
+        (plain_table, both, every[:3]),
+        (plain_table, both[:1], every[:3]),
+        (plain_table, both[:1], every[:1]),
+    ):
+        table = make(*names)
+        add_numbers(table, *numbers)
+        for name, row in found.errors.items():
+            late = found.rtol is not None and row.relative_l2 is not None and row.relative_l2 > found.rtol
+            relative = _number(row.relative_l2)
+            told = {
+                "column": name,
+                "against": row.exact,
+                "relative L2": f"[bold red]{relative}[/bold red]" if late else relative,
+                "Linf": _number(row.linf),
+                "at vertex": "" if row.vertex is None else str(row.vertex),
+                "RMS": _number(row.rms),
+                "bias": _number(row.bias),
+                "relative": _number(row.relative_bias),
+                "null": f"{row.nulls:,}" if row.nulls else "",
+                "compared": f"{row.compared:,}",
+            }
+            table.add_row(*(told[key] for key in (*names, *numbers)))
+        yield table
 
 
 def _number(value: float | None) -> str:

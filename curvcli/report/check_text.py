@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from io import StringIO
 from typing import TextIO
 
@@ -11,7 +12,10 @@ from rich.table import Table
 
 from .check import ERROR, FAIL, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, printable, sentence
 from .console import MARKS, report_console
+from .fitting import add_numbers, fitting, plain_table, roomy_table
 
+# The least width of a column of sentences, or of paths.
+_MESSAGE = 24
 _ORDER = (ERROR, FAIL, PASS, NOT_APPLICABLE)
 
 
@@ -35,9 +39,9 @@ def show(report: CheckReport, verbose: int = 0, stream: TextIO | None = None) ->
                 text = f"{printable(mesh.path)}: {remark.code}: {remark.count:,} {printable(remark.message)}"
                 console.print(f"[yellow]warning[/yellow] {escape(text)}", soft_wrap=True)
         if (verbose or len(report.meshes) == 1) and mesh.status != ERROR:
-            console.print(_outcomes(mesh))
+            console.print(fitting(console, _outcomes(mesh)))
     if len(report.meshes) > 1:
-        console.print(_meshes(report))
+        console.print(fitting(console, _meshes(report)))
     console.print(escape(summary(report)), soft_wrap=True)
     if any(mesh.status == PASS for mesh in report.meshes) and any(rule.name == "gauss_bonnet" for rule in report.rules):
         console.print("[dim]Gauss–Bonnet certifies the curvatures and χ, not that the mesh is sound.[/dim]")
@@ -55,26 +59,34 @@ def summary(report: CheckReport) -> str:
     return f"{meshes}: {counts[PASS]:,} checks hold, {counts[FAIL]:,} fail, {counts[NOT_APPLICABLE]:,} do not apply"
 
 
-def _outcomes(mesh: CheckedMesh) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in ("check", "scope", "status"):
-        table.add_column(header, no_wrap=True)
-    table.add_column(printable(mesh.path), overflow="fold")
-    for outcome in sorted(mesh.outcomes, key=lambda outcome: _ORDER.index(outcome.status)):
-        cells = (escape(printable(text)) for text in (outcome.name, outcome.scope, outcome.message))
-        name, scope, message = cells
-        table.add_row(name, scope, MARKS[outcome.status], message)
-    return table
+def _outcomes(mesh: CheckedMesh) -> Iterator[Table]:
+    """Failing first; with little room the names stand before the sentences."""
+    listed = sorted(mesh.outcomes, key=lambda outcome: _ORDER.index(outcome.status))
+    wide = roomy_table("check", "scope", "status")
+    wide.add_column(printable(mesh.path), overflow="fold", min_width=_MESSAGE)
+    narrow = plain_table("status")
+    narrow.add_column(printable(mesh.path), overflow="fold")
+    for outcome in listed:
+        name, scope, message = (escape(printable(text)) for text in (outcome.name, outcome.scope, outcome.message))
+        wide.add_row(name, scope, MARKS[outcome.status], message)
+        narrow.add_row(MARKS[outcome.status], f"{escape(printable(outcome.label))}: {message}")
+    yield wide
+    yield narrow
 
 
-def _meshes(report: CheckReport) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("mesh", overflow="fold")
-    table.add_column("status", no_wrap=True)
-    for header in ("hold", "fail", "do not apply", "warnings"):
-        table.add_column(header, justify="right", no_wrap=True)
-    for mesh in sorted(report.meshes, key=lambda mesh: _ORDER.index(mesh.status)):
-        cells = [f"{mesh.count(status):,}" for status in (PASS, FAIL, NOT_APPLICABLE)]
-        row = ["", "", "", ""] if mesh.status == ERROR else [*cells, f"{len(mesh.warnings):,}"]
-        table.add_row(escape(printable(mesh.path)), MARKS[mesh.status], *row)
-    return table
+def _meshes(report: CheckReport) -> Iterator[Table]:
+    for counts in (("hold", "fail", "do not apply", "warnings"), ("fail",)):
+        table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+        table.add_column("mesh", overflow="fold", min_width=_MESSAGE)
+        table.add_column("status", no_wrap=True)
+        add_numbers(table, *counts)
+        for mesh in sorted(report.meshes, key=lambda mesh: _ORDER.index(mesh.status)):
+            told = {
+                "hold": mesh.count(PASS),
+                "fail": mesh.count(FAIL),
+                "do not apply": mesh.count(NOT_APPLICABLE),
+                "warnings": len(mesh.warnings),
+            }
+            row = ("" if mesh.status == ERROR else f"{told[name]:,}" for name in counts)
+            table.add_row(escape(printable(mesh.path)), MARKS[mesh.status], *row)
+        yield table

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from rich import box
+from collections.abc import Iterator
+
 from rich.markup import escape
 from rich.table import Table
 
 from ..plurals import counted
 from .console import MARKS, report_console
 from .curves import CurveReport, CurveRow
+from .fitting import add_numbers, fitting, plain_table, roomy_table, with_sentences
 from .model import CheckRow
 
 # Curves that are shown unless more is asked for with -v.
@@ -24,44 +26,58 @@ def show(report: CurveReport, verbose: int = 0) -> None:
     for remark in report.warnings:
         hint = f"; {remark.hint}" if remark.hint else ""
         console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message + hint)}")
-    console.print(_curves(report.curves if verbose else report.curves[:SHOWN]))
+    console.print(fitting(console, _curves(report.curves if verbose else report.curves[:SHOWN])))
     if len(report.curves) > SHOWN and not verbose:
         more = counted(len(report.curves) - SHOWN, "more curve")
         console.print(f"[dim]{more}; -v shows all, --json tells all of each[/dim]")
-    console.print(_checks(report.checks, verbose))
+    console.print(fitting(console, _checks(report.checks, verbose)))
     told = "Σψ: total curvature; writhe in turns; holonomy ≡ 2π · writhe. "
     proves = "unknotted: Σψ ≤ 4π proves it of a curve that does not cross itself; more proves nothing."
     console.print(f"[dim]{told}{proves}[/dim]")
 
 
-def _curves(rows: list[CurveRow]) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in ("curve", "kind", "closed"):
-        table.add_column(header, no_wrap=True)
-    for header in ("vertices", "length", "Σψ", "turns", "Σκ_g", "writhe", "holonomy"):
-        table.add_column(header, justify="right", no_wrap=True)
-    table.add_column("knot", no_wrap=True)
-    for row in rows:
-        numbers = (row.length, row.total_curvature, row.turning_number, row.sum_kappa_g, row.writhe, row.holonomy)
-        closed = "closed" if row.closed else "open"
-        knot = "unknotted" if row.unknotted else ""
-        table.add_row(str(row.curve), row.kind, closed, f"{row.vertices:,}", *map(_number, numbers), knot)
-    return table
+def _curves(rows: list[CurveRow]) -> Iterator[Table]:
+    """All that is told of each curve; fewer digits, then fewer numbers, where the terminal is narrow."""
+    numbers = ("vertices", "length", "Σψ", "turns", "Σκ_g", "writhe", "holonomy")
+    for digits, names, chosen, knots in (
+        (6, ("curve", "kind", "closed"), numbers, True),
+        (4, ("curve", "kind", "closed"), numbers, True),
+        (4, ("curve", "kind"), numbers, False),
+        (3, ("curve", "kind"), ("vertices", "length", "Σψ", "Σκ_g", "writhe"), False),
+        (3, ("curve",), ("vertices", "length", "Σψ"), False),
+    ):
+        table = roomy_table(*names) if digits == 6 else plain_table(*names)
+        add_numbers(table, *chosen)
+        if knots:
+            table.add_column("knot", no_wrap=True)
+        for row in rows:
+            told = {"curve": str(row.curve), "kind": row.kind, "closed": "closed" if row.closed else "open"}
+            found = {
+                "length": row.length,
+                "Σψ": row.total_curvature,
+                "turns": row.turning_number,
+                "Σκ_g": row.sum_kappa_g,
+                "writhe": row.writhe,
+                "holonomy": row.holonomy,
+            }
+            told |= {"vertices": f"{row.vertices:,}"} | {key: _number(value, digits) for key, value in found.items()}
+            knot = ("unknotted" if row.unknotted else "",) if knots else ()
+            table.add_row(*(told[name] for name in (*names, *chosen)), *knot)
+        yield table
 
 
-def _checks(checks: list[CheckRow], verbose: int) -> Table:
+def _checks(checks: list[CheckRow], verbose: int) -> Iterator[Table]:
     """Each identity once, by its closest call, and whatever failed."""
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in ("check", "scope", "status"):
-        table.add_column(header, no_wrap=True)
-    for header in ("residual", "allowed"):
-        table.add_column(header, justify="right", no_wrap=True)
-    table.add_column("detail", overflow="fold")
     listed = checks if verbose else [row for name in dict.fromkeys(c.name for c in checks) for row in _of(checks, name)]
-    for row in listed:
-        numbers = (_number(row.residual, 2), _number(row.tolerance, 2))
-        table.add_row(row.name, row.scope, MARKS[row.status], *numbers, escape(row.detail))
-    return table
+    rows = [
+        (
+            (row.name, row.scope, MARKS[row.status], _number(row.residual, 2), _number(row.tolerance, 2)),
+            escape(row.detail),
+            row.status != "pass",
+        )
+        for row in listed
+    ]
+    return with_sentences(("check", "scope", "status"), ("residual", "allowed"), "detail", rows)
 
 
 def _of(checks: list[CheckRow], name: str) -> list[CheckRow]:

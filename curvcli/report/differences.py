@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import msgspec
 import numpy as np
-from rich import box
 from rich.markup import escape
 from rich.table import Table
 
@@ -15,9 +15,12 @@ from .._version import __version__
 from ..cell_differences import MovedColumn
 from ..differences import Difference, Tolerance
 from .console import report_console
+from .fitting import fitting, plain_table, roomy_table
 
 # Rows of the summary; all with -v.
 _SHOWN = 40
+# The least width of a column of names.
+_NAME = 24
 _ABSENT = {"absent_in_a": "only in B", "absent_in_b": "only in A"}
 
 
@@ -129,24 +132,35 @@ def show(found: Comparison, verbose: int = 0) -> None:
     if found.equal:
         console.print(f"[green]same[/green]: {found.compared:,} values compared, none differs beyond {limits}")
         return
-    shown = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    shown.add_column("value", overflow="fold")
-    for header in ("A", "B", "moved", "allowed"):
-        shown.add_column(header, overflow="fold")
-    for d in found.differences[: None if verbose else _SHOWN]:
-        cells = (_ABSENT[d.status], "") if d.status in _ABSENT else (_number(d.moved, "changed"), _number(d.allowed))
-        shown.add_row(escape(d.key), escape(_text(d.a)), escape(_text(d.b)), *cells)
-    hidden = len(found.differences) - _SHOWN
-    if hidden > 0 and not verbose:
-        shown.add_row(f"[dim]… {hidden:,} more: -v[/dim]")
-    for c in found.columns:
-        where = f"vertices.{c.name}: {c.differing:,} of {c.rows:,}, most at vertex {c.vertex}"
-        shown.add_row(
-            escape(where), escape(_text(c.a)), escape(_text(c.b)), _number(c.moved, "changed"), _number(c.allowed)
-        )
-    console.print(shown)
+    console.print(fitting(console, _moved(found, verbose)))
     count = len(found.differences) + len(found.columns)
     console.print(f"[bold red]DIFFERENT[/bold red]: {count:,} of {found.compared:,} values compared, beyond {limits}")
+
+
+def _moved(found: Comparison, verbose: int) -> Iterator[Table]:
+    """A row for each difference; with little room the values stand below its name, so that no digit is lost."""
+    wide, narrow = roomy_table(), plain_table("value", fold=_NAME)
+    for header in ("value", "A", "B", "moved", "allowed"):
+        wide.add_column(header, overflow="fold")
+    for header in ("moved", "allowed"):
+        narrow.add_column(header, no_wrap=True)
+
+    def add(name: str, a: str, b: str, moved: str, allowed: str) -> None:
+        wide.add_row(name, a, b, moved, allowed)
+        narrow.add_row(f"{name}\n  A {a}\n  B {b}", moved, allowed)
+
+    for d in found.differences[: None if verbose else _SHOWN]:
+        cells = (_ABSENT[d.status], "") if d.status in _ABSENT else (_number(d.moved, "changed"), _number(d.allowed))
+        add(escape(d.key), escape(_text(d.a)), escape(_text(d.b)), *cells)
+    hidden = len(found.differences) - _SHOWN
+    if hidden > 0 and not verbose:
+        for table in (wide, narrow):
+            table.add_row(f"[dim]… {hidden:,} more: -v[/dim]")
+    for c in found.columns:
+        where = f"vertices.{c.name}: {c.differing:,} of {c.rows:,}, most at vertex {c.vertex}"
+        add(escape(where), escape(_text(c.a)), escape(_text(c.b)), _number(c.moved, "changed"), _number(c.allowed))
+    yield wide
+    yield narrow
 
 
 def _text(value: Any) -> str:

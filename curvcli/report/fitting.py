@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 
 from rich import box
 from rich.console import Console
 from rich.measure import Measurement
 from rich.table import Table
+
+# Least widths of a column of sentences, and of one of names that are folded.
+_SENTENCE, _NAME = 20, 14
 
 
 def fitting(console: Console, variants: Iterable[Table]) -> Table:
@@ -34,6 +37,34 @@ def plain_table(*headers: str, fold: int | None = None) -> Table:
     for header in headers:
         table.add_column(header, no_wrap=fold is None, overflow="fold", min_width=fold)
     return table
+
+
+def roomy_table(*headers: str) -> Table:
+    """An empty table without frame, its columns two blanks and more apart, for where there is room."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for header in headers:
+        table.add_column(header, no_wrap=True)
+    return table
+
+
+def with_sentences(
+    headers: Sequence[str], numbers: Sequence[str], last: str, rows: Sequence[tuple[Sequence[str], str, bool]]
+) -> Iterator[Table]:
+    """Tables whose last column holds sentences; the narrow one has those that are needed below the first cell instead.
+
+    rows: the cells but for the last, the sentence, and whether it is needed where there is little room.
+    """
+    wide = roomy_table(*headers)
+    add_numbers(wide, *numbers)
+    wide.add_column(last, overflow="fold", min_width=_SENTENCE)
+    narrow = plain_table(*headers)
+    add_numbers(narrow, *numbers)
+    narrow.columns[0].no_wrap, narrow.columns[0].min_width = False, _NAME
+    for (first, *cells), sentence, needed in rows:
+        wide.add_row(first, *cells, sentence)
+        narrow.add_row(f"{first}\n  {sentence}" if needed else first, *cells)
+    yield wide
+    yield narrow
 
 
 def add_numbers(table: Table, *headers: str) -> None:

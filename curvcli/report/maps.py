@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
-from rich import box
 from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
 from .console import MARKS, report_console
+from .fitting import fitting, with_sentences
 from .model import CheckRow, Input, Remark, input_of, remarks
 
 if TYPE_CHECKING:
@@ -84,17 +85,21 @@ def show(f: SurfaceMap) -> None:
     console.print(f"[bold]{' → '.join(names)}[/bold]  V {f.source.n_vertices:,}  F {f.source.n_faces:,}")
     for remark in report.warnings:
         console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}")
-    console.print(_quantities(report))
-    checks = _table("check", "status", "residual", "allowed", "detail")
-    for row in report.checks:
-        checks.add_row(row.name, MARKS[row.status], _text(row.residual, 2), _text(row.tolerance, 2), escape(row.detail))
-    console.print(checks)
+    console.print(fitting(console, _quantities(report)))
+    rows = [
+        (
+            (row.name, MARKS[row.status], _text(row.residual, 2), _text(row.tolerance, 2)),
+            escape(row.detail),
+            row.status != "pass",
+        )
+        for row in report.checks
+    ]
+    console.print(fitting(console, with_sentences(("check", "status", "residual", "allowed"), (), "detail", rows)))
 
 
-def _quantities(report: MapReport) -> Table:
-    table = _table("quantity", "value", "what it is")
+def _quantities(report: MapReport) -> Iterator[Table]:
     totals, harmonic = report.totals, report.harmonic
-    for name, value, meaning in (
+    rows = (
         ("dirichlet", _text(totals["dirichlet"]), "E(f) = ½ Σ |∇f|² area"),
         ("area", _text(totals["area"]), "area of the source"),
         ("image_area", _text(totals["image_area"]), "area of the image"),
@@ -102,9 +107,10 @@ def _quantities(report: MapReport) -> Table:
         ("sigma_1", _between(report.sigma_1), "larger singular value per face"),
         ("sigma_2", _between(report.sigma_2), "smaller singular value per face, without sign"),
         ("harmonic", _text(harmonic.residual_max), _where(harmonic)),
-    ):
-        table.add_row(name, value, meaning)
-    return table
+    )
+    return with_sentences(
+        ("quantity", "value"), (), "what it is", [((name, value), meaning, True) for name, value, meaning in rows]
+    )
 
 
 def _where(harmonic: Harmonic) -> str:
@@ -129,10 +135,3 @@ def _plain(value: float) -> float | None:
 
 def _text(value: float | None, digits: int = 12) -> str:
     return "undefined" if value is None else f"{value:.{digits}g}"
-
-
-def _table(*headers: str) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in headers:
-        table.add_column(header, overflow="fold")
-    return table

@@ -1,0 +1,91 @@
+"""What is printed of curves, checks, differences, maps and errors, at every width: nothing cut off, nothing wider."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+
+import pytest
+from rich.console import Console
+
+from curvcli.accuracy import ErrorNorms
+from curvcli.curves.collect import curves_of_surface
+from curvcli.curves.measure import CurveMeasures
+from curvcli.maps import SurfaceMap
+from curvcli.report import accuracy, check_text, curves, curves_text, differences, maps
+from curvcli.report.check import CheckedMesh, CheckReport, Outcome, Rule
+from tests.meshes import of_sample
+
+SENTENCE = "a sentence of several words that says what holds on every mesh and what does not, as identities do"
+
+
+def of_curves() -> None:
+    curves_text.show(curves.model(CurveMeasures(curves_of_surface(of_sample("mobius").surface()))))
+
+
+def of_checks(count: int = 1) -> None:
+    outcomes = [
+        Outcome("total_absolute_curvature", "identity", "component 12", "pass", SENTENCE),
+        Outcome("closed", "requirement", "whole", "fail", SENTENCE),
+        Outcome("volume", "identity", "whole", "not_applicable", SENTENCE),
+    ]
+    names = [f"meshes/of/a/folder/part-{k}.stl" for k in range(count)]
+    checked = [CheckedMesh(name, None, "fail", 1, None, outcomes, []) for name in names]
+    check_text.show(CheckReport(1, "0", [Rule("closed", "requirement", SENTENCE)], checked, 1))
+
+
+def of_differences() -> None:
+    change = differences.Change(
+        "components.3.totals.willmore_hks", "moved", 0.1 + 0.2, -1.2345678901234567e-17, 0.3, 1e-9
+    )
+    vector = differences.Change("totals.A_vec", "moved", [0.1 + 0.2, 1 / 3, 2 / 3], [0.5, 1 / 7, -2 / 7], 0.3, 1e-9)
+    column = differences.ChangedColumn("kappa_1", 12345, 678, 90, 1 / 3, 0.1 + 0.2, 0.03, 1e-9)
+    sides = (differences.Side("a.obj", "mesh"), differences.Side("b.json", "report"))
+    differences.show(differences.Comparison(1, "0", *sides, 1e-9, 0, False, 100, [change, vector], [column], []))
+
+
+def of_maps() -> None:
+    surface = of_sample("cap", size=60).surface()
+    maps.show(SurfaceMap(surface, surface.points * [1.0, 2.0, 0.5]))
+
+
+def of_errors() -> None:
+    norms = [
+        ErrorNorms(name, "kappa_1", 0.00123, 12.3, 123456, 0.0123, -0.00123, -0.0000123, 1234, 123456)
+        for name in ("kappa_1", "kappa_1_corrected_8e")
+    ]
+    sides = (differences.Side("a.obj", "mesh"), differences.Side("b.csv", "table"))
+    accuracy.show(accuracy.model(*sides, "2rings", 0.1, norms, [], []))
+
+
+KINDS: dict[str, tuple[Callable[[], None], tuple[str, ...]]] = {
+    "curves": (of_curves, ("0 boundary", "turning_number", "fenchel")),
+    "one mesh": (of_checks, ("total_absolute_curvature", "identities do")),
+    "several meshes": (lambda: of_checks(3), ("meshes/of/a/folder/part-2.stl", "FAIL")),
+    "differences": (
+        of_differences,
+        ("components.3.totals.willmore_hks", "0.30000000000000004", "-1.2345678901234567e-17"),
+    ),
+    "maps": (of_maps, ("nonconformality", "harmonic")),
+    "errors": (of_errors, ("kappa_1_corrected_8e", "0.00123")),
+}
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_fits(kind: str, width: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = io.StringIO()
+    made = Console(file=stream, width=width, force_terminal=True, color_system=None, highlight=False)
+    for module in (accuracy, check_text, curves_text, differences, maps):
+        monkeypatch.setattr(module, "report_console", lambda *options: made)
+    show, words = KINDS[kind]
+    show()
+    lines = [line.rstrip() for line in stream.getvalue().splitlines()]
+    # Failures of a check are never folded: one line each, for grep.
+    tables = [line for line in lines if not line.startswith("FAIL ") and "checks hold" not in line]
+    assert [line for line in tables if len(line) > width] == []
+    assert "…" not in "".join(line.replace(" … ", "") for line in lines)
+    told = " ".join(" ".join(lines).split())
+    assert [word for word in words if word not in told] == []
+    # No column of single letters.
+    assert sum(len(line.strip()) == 1 for line in lines) <= 2
