@@ -86,7 +86,7 @@ def _write(analysis: Analysis, item: Item, settings: Settings) -> None:
     for folder in {os.path.dirname(path) for _, path in item.outputs}:
         _make(folder)
     # The folder is the batch's own and was checked at the start: what stands there is of an earlier run.
-    with Outputs([path for _, path in item.outputs], force=True) as outputs:
+    with Outputs([path for _, path in item.outputs], force=True, durable=True) as outputs:
         analysis.extra_notices += write_into(
             outputs, analysis, paths, settings.appearance, tables=tables, command=settings.command
         )

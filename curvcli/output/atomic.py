@@ -38,13 +38,16 @@ class Outputs:
     included, removes the temporaries and leaves older files as they were. `-` is stdout; devices and FIFOs are written
     directly, links are followed.
 
+    What a killed program, an interruption or a full disk leaves is whole without more; with `durable`, contents are on
+    the disk before they get their names, so that what a record says of them holds after a power cut too.
+
     A closed pipe (BrokenPipeError) passes through as it is; outputs complete by then are kept, so `-` is best written
     last. Errors: OutputError for a path that exists (without `force`), cannot be written, or is named twice.
     """
 
-    def __init__(self, paths: Iterable[str | os.PathLike[str]], force: bool = False):
+    def __init__(self, paths: Iterable[str | os.PathLike[str]], force: bool = False, durable: bool = False):
         self._paths = [os.fspath(path) for path in paths]
-        self._force = force
+        self._force, self._durable = force, durable
         self._targets: dict[str, _Target] = {}
         # A thread that was never waited for begins no file after the end.
         self._begin, self._ended = Lock(), False
@@ -121,8 +124,9 @@ class Outputs:
             with contextlib.suppress(OSError):
                 os.chmod(target.temporary, stat.S_IMODE(os.stat(target.place.final).st_mode) & 0o777)
             yield stream
-            stream.flush()
-            os.fsync(descriptor)
+            if self._durable:
+                stream.flush()
+                os.fsync(descriptor)
 
     def _name(self, temporary: str, target: _Target) -> None:
         if self._force:
