@@ -24,6 +24,9 @@ BLANK, NEWLINE = 32, 10
 _BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
 _TOKEN_PER_LINE = bytes.maketrans(b" ", b"\n")
 _BLOCK = 1 << 20
+# What the C library of Microsoft writes for values that are no numbers: of old, also cut to few digits, and now.
+_INFINITE = re.compile(rb"(?<![^ \n])([+-]?)1\.#INF0*(?=[ \n])")
+_UNDEFINED = re.compile(rb"(?<![^ \n])[+-]?(?:1\.#(?:(?:IND|QNAN|SNAN)0*|J|IO|R|QO|QNB)|nan\((?:ind|snan)\))(?=[ \n])")
 SMALL = 1 << 18
 """Texts up to this many bytes are read without polars: importing it would take longer than reading them."""
 
@@ -68,7 +71,7 @@ def decode(text: bytes) -> str:
 
 def plain_lines(data: bytes) -> bytes:
     """The same text without byte-order mark, with LF line ends (also at the end) and with blanks as the only white
-    space."""
+    space; `nan` and `inf` for what a C library writes instead, whose `#` would begin a comment."""
     if data.startswith(b"\xef\xbb\xbf"):
         data = data[3:]
     if b"\r" in data:
@@ -76,7 +79,10 @@ def plain_lines(data: bytes) -> bytes:
         data = data.replace(b"\r", b"\n") if b"\r" in data else data
     if any(byte in data for byte in (b"\t", b"\0", b"\v", b"\f")):
         data = data.translate(_BLANKS)
-    return data if data.endswith(b"\n") else data + b"\n"
+    data = data if data.endswith(b"\n") else data + b"\n"
+    if b"1.#" in data or b"(ind)" in data or b"(snan)" in data:
+        data = _UNDEFINED.sub(b"nan", _INFINITE.sub(rb"\1inf", data))
+    return data
 
 
 def tidy(data: bytes) -> bytes:

@@ -161,6 +161,16 @@ class TestTraps:
         assert np.isnan(parse_obj(b"v 0 nan 0\n" + SQUARE + b"f 2 3 4\n").xyz[1, 0])
         assert np.isinf(parse_obj(b"v 0 -inf 0\n" + SQUARE + b"f 2 3 4\n").xyz[1, 0])
 
+    @pytest.mark.parametrize("spelled", [b"1.#QNAN", b"-1.#IND00", b"1.#J", b"-1.#IO", b"-nan(ind)", b"nan(snan)"])
+    @pytest.mark.parametrize("after", [b"", b" ", b" # 1", b"\r"])
+    def test_not_a_number_as_some_libraries_write_it(self, spelled: bytes, after: bytes) -> None:
+        """Its `#` begins no comment: what is left of it would be a number."""
+        xyz = parse_obj(SQUARE + b"v 1 2 " + spelled + after + b"\nv " + spelled + b" 2 3\nf 1 2 3\n").xyz
+        assert np.isnan(xyz[2, 4])
+        assert np.isnan(xyz[0, 5])
+        assert parse_obj(SQUARE + b"v 1 2 -1.#INF00" + after + b"\nf 1 2 3\n").xyz[2, 4] == -np.inf
+        assert parse_obj(SQUARE + b"v 1 2 1.#comment" + after + b"\nf 1 2 3\n").xyz[2, 4] == 1
+
     @pytest.mark.parametrize(
         ("data", "message"),
         [

@@ -261,6 +261,14 @@ class TestRefused:
             parse_ply(ascii_ply("3 0 1 2\n3 0 2 3\n"), max_faces=1)
 
 
+def test_properties_that_are_not_numbers_as_some_libraries_write_them() -> None:
+    header = ascii_ply("3 0 1 2\n").decode().partition("end_header\n")[0].replace("vertex 4", "vertex 3")
+    header = header.replace("property float x", "property float quality\nproperty float x")
+    mesh = parse_ply((header + "end_header\n-1.#IND 0 0 0\n1.#INF 1 0 0\n-nan(ind) 0 1 0\n3 0 1 2\n").encode())
+    np.testing.assert_array_equal(mesh.vertex_properties["quality"], [np.nan, np.inf, np.nan])
+    assert mesh.xyz.T.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+
+
 def test_a_comment_without_its_keyword_in_the_header() -> None:
     """As an old exporter writes them; what belongs to no element can be no loss."""
     for data in (ascii_ply("3 0 1 2\n"), binary_ply([(0, 1, 2)])):

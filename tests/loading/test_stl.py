@@ -111,6 +111,12 @@ def test_comments_are_no_statements() -> None:
     )
 
 
+def test_normals_that_are_not_numbers_do_not_matter() -> None:
+    data = re.sub(rb"normal .*", b"normal -1.#IND 1.#QNAN -nan(ind)", ascii_stl(TETRAHEDRON))
+    assert parse_stl(data).corners.tolist() == CORNERS
+    assert np.isnan(parse_stl(data.replace(b"vertex 1.0 ", b"vertex 1.#QNAN ")).xyz).any()
+
+
 def test_what_is_counted() -> None:
     assert codes(ascii_stl(TETRAHEDRON)) == {}
     assert codes(ascii_stl(TETRAHEDRON, last=False)) == {"missing_endsolid": 1}
