@@ -115,6 +115,13 @@ def test_sign() -> None:
         assert (found[np.arange(len(found)), largest] > 0).all()
 
 
+def test_nearly_umbilic() -> None:
+    """A billionth more bent along x than along y."""
+    low = -1 - 1e-9
+    one, _ = directions(fan([low, -1, -1, -1, low, -1, -1, -1], [1.0] * 8))
+    np.testing.assert_allclose(along(one[:1], np.array([[1.0, 0, 0]])), 1, atol=1e-6)
+
+
 def test_nulls() -> None:
     """At umbilics, in planes, without an orientation, and where an edge has no dihedral angle."""
     for heights in ([-1.0] * 5, [0.0] * 6):

@@ -93,3 +93,50 @@ def test_a_flat_triangle_seen_from_both_sides(seed: int) -> None:
     np.testing.assert_allclose(result.vertices["K"].sum(), 4 * math.pi, rtol=1e-14)
     assert np.isnan(result.edges["H_tan"]).all()
     assert [notice.count for notice in result.notices if notice.code == "folded_edges"] == [3]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_folds_are_convex(seed: int) -> None:
+    """Where a surface folds onto itself rounding has no say: θ = +π, from whichever side it is seen."""
+    corners = np.random.default_rng(seed).normal(size=(4, 3))
+    corners[3] = corners[2] + 0.25 * (corners[1] - corners[0])
+    for faces in ([[0, 1, 2], [1, 0, 3]], [[1, 0, 2], [0, 1, 3]], [[0, 1, 2], [0, 1, 3]]):
+        theta = analyse(mesh(corners, faces)).edges["theta"]
+        np.testing.assert_allclose(theta[~np.isnan(theta)], [math.pi], rtol=1e-15)
+
+
+@pytest.mark.parametrize(("depth", "convex"), [(0.0, True), (1e-8, True), (5e-7, False), (1e-3, False), (-1e-3, True)])
+def test_a_dent_that_is_more_than_rounding(depth: float, convex: bool) -> None:
+    """A cube with a pit in the middle of one side, or a roof on it; ΣK⁻ is of the order of the depth squared."""
+    box = of_sample("cube")
+    lid = np.isclose(box.points[box.faces][:, :, 2], box.points[:, 2].max()).all(axis=1)
+    rim = box.faces[lid]
+    edges = [(a, b) for face in rim.tolist() for a, b in zip(face, face[1:] + face[:1], strict=True)]
+    around = [[a, b, 8] for a, b in edges if (b, a) not in edges]
+    middle = box.points[rim].mean(axis=(0, 1)) * [0, 0, 1] + box.points[np.unique(rim)].mean(axis=0) * [1, 1, 0]
+    dented = mesh(np.vstack([box.points, middle - [0, 0, depth]]), [*box.faces[~lid].tolist(), *around])
+    result = analyse(dented)
+    assert result.report()["steiner"]["convex"] is convex
+    if depth > 0:
+        assert 0.1 * depth**2 < total(result, "K_minus") + 1e-15 < 10 * depth**2 + 2e-15
+
+
+def test_a_membrane_inside_leaves_no_volume() -> None:
+    """Two tetrahedra with a common face: closed, each patch orientable, and yet the faces at the rim do not cancel."""
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, 1], [0.2, 0.2, -1]]
+    sides = [[a, b, top] for a, b in ((0, 1), (1, 2), (2, 0)) for top in (3, 4)]
+    result = analyse(mesh(points, [*sides, [0, 1, 2]]))
+    report = result.report()
+    assert (report["topology"]["closed"], report["topology"]["orientable"]) == (True, True)
+    assert result.totals["volume"] is report["steiner"]["coefficients"] is None
+    (check,) = [check for check in result.checks if check.name == "volume"]
+    assert (check.status, check.detail) == ("not_applicable", "the oriented faces do not cancel at every edge")
+    assert analyse(mesh(points, sides)).totals["volume"] == pytest.approx(1 / 3)
+
+
+def test_where_principal_curvatures_are_equal_there_is_no_shape() -> None:
+    """A radicand that is clamped at 0 makes an umbilic."""
+    column = analyse(meshes.ellipsoid()).vertices
+    equal = column["kappa_1"] == column["kappa_2"]
+    assert 0 < equal.sum() < len(equal)
+    np.testing.assert_array_equal(np.isnan(column["shape_index"]), equal)
