@@ -24,6 +24,19 @@ def is_url(place: str) -> bool:
     return bool(_SCHEME.match(place))
 
 
+def absolute(path: str) -> str:
+    """The path from the root on.
+
+    Errors: InputError for a relative one where the working folder has been removed.
+    """
+    try:
+        return os.path.abspath(path)
+    except OSError as error:
+        raise InputError(
+            f"the working folder is gone ({error.strerror})", path=shown(path), hint="name the whole path"
+        ) from None
+
+
 def local(place: str) -> str:
     """A `file://` URL as the path it stands for; everything else as it is."""
     if not place.lower().startswith("file://"):
@@ -47,7 +60,7 @@ def parts_of(place: str) -> tuple[str, ...]:
         url = urlsplit(place)
         parts = (url.scheme, url.netloc, *unquote(url.path).split("/"))
         return tuple(part for part in parts if part not in ("", ".", ".."))
-    drive, rest = os.path.splitdrive(os.path.abspath(place))
+    drive, rest = os.path.splitdrive(absolute(place))
     return (drive.strip(":\\/").replace("\\", "_"), *(part for part in rest.split(os.sep) if part))
 
 

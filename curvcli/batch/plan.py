@@ -12,7 +12,7 @@ from ..loading.content import shown
 from ..output.formats import FORMATS, format_of
 from ..tables import TABLES
 from .model import Item
-from .places import expand, is_url, listed, local, parts_of, read_url, root_of
+from .places import absolute, expand, is_url, listed, local, parts_of, read_url, root_of
 
 # Lives in the memory of one process: its content is handed to the others.
 _OF_ONE_PROCESS = "memory://"
@@ -28,9 +28,9 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
     """
     named: list[tuple[str, str]] = []
     roots: list[tuple[str, ...]] = []
-    inside = os.path.join(os.path.abspath(folder), "")
+    inside = os.path.join(absolute(folder), "")
     for pattern in map(local, patterns):
-        found = [name for name in expand(pattern) if name == pattern or not os.path.abspath(name).startswith(inside)]
+        found = [name for name in expand(pattern) if name == pattern or not absolute(name).startswith(inside)]
         if not found:
             raise NoMatchError(f"{shown(pattern)}: no file matches outside {shown(folder)}")
         named += [(name, _place(name)) for name in found]
@@ -46,7 +46,7 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
         if place in seen:
             continue
         seen.add(place)
-        stem = _free(os.path.join(os.path.abspath(folder), *parts_of(place)[base:]), save, taken)
+        stem = _free(os.path.join(inside, *parts_of(place)[base:]), save, taken)
         content = read_url(place, None) if place.startswith(_OF_ONE_PROCESS) else None
         names[shown(name)] += 1
         again = f"~{names[shown(name)]}" if names[shown(name)] > 1 else ""  # two names that read alike once escaped
@@ -90,7 +90,7 @@ def _shared(roots: Sequence[tuple[str, ...]]) -> int:
 
 
 def _place(name: str) -> str:
-    return name if is_url(name) else os.path.abspath(name)
+    return name if is_url(name) else absolute(name)
 
 
 def _free(stem: str, save: Sequence[str], taken: set[str]) -> str:

@@ -96,7 +96,10 @@ def run(
     verbose: int,
     **conventions: Any,
 ) -> int:
-    """Check the options, plan, work, summarise; the exit code."""
+    """Check the options, plan, work, summarise; the exit code.
+
+    Errors: UsageError for options that do not fit; those of the plan and of the manifest.
+    """
     from ..batch.model import Limits
     from ..batch.plan import plan, saves
 

@@ -28,12 +28,20 @@ def configure(context: click.Context, given: str | None, find: Find) -> None:
     find: a command by its name. Errors: UsageError for a file that cannot be read, an unknown table or key (with the
     nearest), a value of the wrong type.
     """
-    path = given or nearest(os.getcwd())
+    path = given or nearest(_here())
     if path is None:
         return
     tables = read(path)
     context.default_map = {name: defaults(path, name, table, find) for name, table in tables.items()}
     context.meta[META] = (path, tables)
+
+
+def _here() -> str:
+    """The working folder; the root of all where somebody has removed it."""
+    try:
+        return os.getcwd()
+    except OSError:
+        return os.path.abspath(os.sep)
 
 
 def nearest(folder: str) -> str | None:

@@ -40,7 +40,7 @@ def shell(name: str | None) -> Shell:
         raise UsageError(
             f"{what}: expected one of {', '.join(SHELLS)}; name the shell, as in `completion install bash`"
         )
-    home = os.path.expanduser("~")
+    home = os.path.abspath(os.path.expanduser("~"))
     data = os.environ.get("XDG_DATA_HOME") or os.path.join(home, ".local", "share")
     if found == "fish":
         config = os.environ.get("XDG_CONFIG_HOME") or os.path.join(home, ".config")

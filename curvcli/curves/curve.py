@@ -160,7 +160,10 @@ class Curve:
         return _number(self._bishop.holonomy[0])
 
     def normal_holonomy(self) -> Floats:
-        """(d − 1, d − 1) the normal holonomy of a closed curve, an element of SO(d − 1)."""
+        """(d − 1, d − 1) the normal holonomy of a closed curve, an element of SO(d − 1).
+
+        Errors: UsageError for an open curve.
+        """
         if not self.closed:
             raise UsageError("the curve is open; only closed curves have a normal holonomy")
         return normal_holonomy(self.points)

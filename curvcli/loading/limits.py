@@ -7,7 +7,7 @@ from ..plurals import number_of
 
 
 def check_faces(found: int, allowed: int | None) -> None:
-    """Refuses more faces than allowed (None: any number)."""
+    """Errors: InputError for more faces than allowed (None: any number)."""
     if allowed is not None and found > allowed:
         raise InputError(
             f"{number_of(found, 'face')} found, at most {allowed} allowed", hint="--max-faces sets the limit"

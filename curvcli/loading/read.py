@@ -38,7 +38,8 @@ def read_mesh_file(
     source: a path, or a binary stream (its path is reported as `-`). input_format: `obj`, `ply` or `stl` instead of
     the suffix. weld: `auto` (exact for STL, none otherwise), `none`, `exact`, or a tolerance relative to the diagonal
     of the bounding box. max_faces, max_bytes: refuse larger files. normals: `file` also reads those of an OBJ file.
-    Errors: InputError, one line that names the file, the place, what was found and what was expected.
+    Errors: InputError, one line that names the file, the place, what was found and what was expected; UsageError for
+    an unknown format or way of welding.
     """
     return read_and_make(lambda mesh: mesh, source, input_format, weld, max_faces, max_bytes, normals)
 
@@ -52,7 +53,7 @@ def read_and_make(
     max_bytes: int | None = None,
     normals: str = "mesh",
 ) -> Made:
-    """What `make` makes of the content of a mesh file, read as `read_mesh_file` does."""
+    """What `make` makes of the content of a mesh file, read, and refused, as `read_mesh_file` does it."""
     _check_weld(weld)
     if input_format is not None and input_format.lower() not in FORMATS:
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(FORMATS)} are")

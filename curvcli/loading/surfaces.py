@@ -45,7 +45,10 @@ def load(
 
 
 def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
-    """The surface of a mesh file, its polygons triangulated."""
+    """The surface of a mesh file, its polygons triangulated.
+
+    Errors: InputError for a file without faces, or whose faces use coordinates that are not finite.
+    """
     from .polygons import triangulate
 
     try:

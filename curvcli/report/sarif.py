@@ -42,6 +42,8 @@ def uri_of(path: str) -> str:
         relative = os.path.relpath(path)
     except ValueError:  # another drive
         return PurePath(os.path.abspath(path)).as_uri()
+    except OSError:  # the working directory has been removed
+        return PurePath(path).as_uri() if os.path.isabs(path) else quote(os.fsencode(path))
     return quote(os.fsencode(relative.replace(os.sep, "/")))
 
 

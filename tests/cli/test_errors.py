@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from tests.cli.program import CUBE, DISK, MOBIUS, curvcli, wrote
+from tests.cli.program import CUBE, DISK, MOBIUS, command, curvcli, environment, wrote
 
 
 @pytest.mark.parametrize(
@@ -128,6 +130,27 @@ def test_one_bad_mesh_does_not_stop_the_others(tmp_path: Path) -> None:
     assert ended.complaint.startswith(str(bad))
     written = {f"{stem}.{suffix}" for stem in ("cube", "mobius") for suffix in ("csv", "json")}
     assert {path.name for path in tmp_path.iterdir()} == {"bad.obj"} | written
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a folder that somebody is in may not be removed")
+def test_a_working_folder_that_is_gone(tmp_path: Path) -> None:
+    """What is named by its whole path is done, what is not is not found."""
+
+    def run(*arguments: str) -> tuple[int, str]:
+        (tmp_path / "gone").mkdir()
+        line = ["sh", "-c", 'cd "$0" && rmdir "$0" && exec "$@"', str(tmp_path / "gone"), *command(*arguments)]
+        done = subprocess.run(line, capture_output=True, text=True, env=environment(), timeout=120)
+        assert len(done.stderr.splitlines()) == (done.returncode != 0), done.stderr
+        return done.returncode, done.stderr
+
+    assert run("analyze", CUBE, "-q", "-o", str(tmp_path / "k.csv"))[0] == 0
+    assert run("check", CUBE, "--format", "sarif")[0] == 0
+    assert run("check", "cube.obj", "--format", "sarif")[0] == 3
+    assert run("batch", CUBE, "-q", "-o", str(tmp_path / "out"))[0] == 0
+    assert run("analyze", "cube.obj") == (3, "curvcli: cube.obj: no such file\n")
+    assert run("analyze", CUBE, "-o", "k.csv")[0] == 4
+    code, words = run("batch", CUBE, "-o", "out")
+    assert (code, words.startswith("curvcli: out: the working folder is gone")) == (3, True)
 
 
 def test_stems(tmp_path: Path) -> None:
