@@ -222,3 +222,19 @@ def test_edges_of_regions_are_boundary() -> None:
         for quantity in ("K", "K_plus", "K_minus", "willmore", "willmore_hks", "willmore_perp", "willmore_conformal"):
             assert passes.quantity(quantity).total == quantity
             assert region["totals"][quantity] == pytest.approx(column[quantity][inner].sum(), rel=1e-11, abs=1e-12)
+
+
+@pytest.mark.parametrize("orient", ["file", "outward"])
+@pytest.mark.parametrize("first", [0, 1])
+def test_regions_are_oriented_as_the_whole_is(first: int, orient: Any) -> None:
+    """The lowest face of the whole decides, or the outside, also where all of a region is wound the other way."""
+    body, labels = halves()
+    sound = analyse(body, labels).report()["regions"]
+    faces = body.faces.copy()
+    faces[labels == first] = faces[labels == first][:, ::-1]
+    turned = curvcli.analyze((body.points, faces), "all", regions=labels, orient=orient)
+    side = -1 if orient == "file" and labels[0] == first else 1
+    for region, known in zip(turned.report()["regions"], sound, strict=True):
+        for key in ("H_theta", "H_sin", "A_vec"):
+            wanted = side * np.array(known["totals"][key])
+            np.testing.assert_allclose(region["totals"][key], wanted, rtol=1e-12, atol=1e-13, err_msg=key)
