@@ -16,7 +16,7 @@ from .weld import weld_exact
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
-_KEYWORD = re.compile(rb"[ \n]+(endsolid|facet|outer|vertex|endloop|endfacet)\b", re.IGNORECASE)
+_KEYWORD = re.compile(rb"(?<![ \n])[ \n]+(endsolid|facet|outer|vertex|endloop|endfacet)\b", re.IGNORECASE)
 _SHARED_LINE = re.compile(rb"[^\n] (?:facet|vertex)\b", re.IGNORECASE)
 ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+solid\b", re.IGNORECASE)
 

@@ -195,6 +195,11 @@ def one_line_stl(n: int) -> bytes:
     return b" ".join([b"solid s", *_facets(n), b"endsolid"]).replace(b"\n", b" ")
 
 
+def blank_stl(n: int) -> bytes:
+    """Facets that share a line, and as many line ends before the last word."""
+    return b"solid s " + b" ".join(_facets(4)).replace(b"\n", b" ") + b"\n" * n + b"endsolid s\n"
+
+
 def equal_facets(n: int) -> bytes:
     """One facet n times."""
     return bytes(80) + struct.pack("<I", n) + struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0) * n
@@ -230,6 +235,7 @@ FILES = {
     "strip": Hostile("ply", strip, 100_000),
     "solids": Hostile("stl", solids, 10_000),
     "one_line_stl": Hostile("stl", one_line_stl, 10_000),
+    "blank_stl": Hostile("stl", blank_stl, 200_000, memory=500),
     "equal_facets": Hostile("stl", equal_facets, 30_000),
     "swollen": Hostile("obj.gz", swollen, 60_000_000, memory=12),
 }
