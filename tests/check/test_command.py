@@ -132,6 +132,10 @@ def test_70_a_defect_of_the_program(bad: Path) -> None:
     ended = disturbed(BROKEN, "check", CUBE, "--require", "connected")
     assert (ended.code, ended.out) == (70, "")
     assert ended.complaint.startswith("internal error: RuntimeError: a defect of ours")
+    for twice in (["-vv"], ["-v", "--verbose"]):
+        ended = disturbed(BROKEN, "check", CUBE, "--require", "connected", *twice)
+        assert (ended.code, ended.err.startswith("Traceback")) == (70, True)
+        assert ended.err.splitlines()[-1].startswith("curvcli: internal error: RuntimeError: a defect of ours")
     ended = disturbed(BROKEN, "check", CUBE, bad, MOBIUS, "--require", "connected", "--format", "json")
     assert ended.code == 70
     read = json.loads(ended.out)
