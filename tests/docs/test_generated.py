@@ -79,6 +79,16 @@ def test_every_warning_has_a_line() -> None:
     assert {code for code in codes if f"`{code}`" not in page} == set()
 
 
+def test_every_line_has_a_warning() -> None:
+    table = text("docs/formats.md").partition("| code | what it means |")[2].partition("\n\n")[0]
+    codes = [
+        code for cell in re.findall(r"^\| (`[^|]*) \|", table, re.MULTILINE) for code in re.findall(r"`(\w+)`", cell)
+    ]
+    assert len(codes) == len(set(codes)) > 30
+    sources = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "curvcli").glob("**/*.py"))
+    assert [code for code in codes if f'"{code}"' not in sources] == []
+
+
 def test_every_exit_code_has_a_line() -> None:
     for code in EXIT_CODES:
         assert f"\n| {code} | " in text("docs/formats.md")
