@@ -90,7 +90,6 @@ def _write(analysis: Analysis, item: Item, settings: Settings) -> None:
         analysis.extra_notices += write_into(
             outputs, analysis, paths, settings.appearance, tables=tables, command=settings.command
         )
-        outputs.commit()
 
 
 def _make(folder: str) -> None:

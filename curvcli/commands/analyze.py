@@ -154,7 +154,6 @@ class Run:
                     continue
                 reports.append(self.tell(analysis))
                 codes.append(FAILED_CHECK if self.strict and not analysis.passed else OK)
-            everything.commit()
         if self.as_json:
             from ..report.model import encode
 

@@ -104,8 +104,7 @@ def measure(
         for one in wanted:
             with files.open(one.path) as stream:
                 _write(stream, measures, report, one.kind, one.suffix, precision)
-        files.commit()
-    _tell(report, as_json, get, quiet or to_stdout, verbose)
+        _tell(report, as_json, get, quiet or to_stdout, verbose)
     return FAILED_CHECK if strict and any(check.status == "fail" for check in report.checks) else OK
 
 

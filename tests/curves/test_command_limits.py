@@ -62,6 +62,11 @@ def test_options_are_checked_before_any_work(cli: Cli, tmp_path: Path, options: 
     assert "not_read" not in done.err
 
 
+def test_a_key_that_is_not_there_leaves_no_output(cli: Cli, knot: Path, tmp_path: Path) -> None:
+    assert cli.run(knot, "-o", tmp_path / "out.csv", "--get", "curves.0.colour").code == 2
+    assert sorted(tmp_path.iterdir()) == [knot]
+
+
 def test_existing_outputs_stay_without_force(cli: Cli, knot: Path, tmp_path: Path) -> None:
     out = tmp_path / "out.csv"
     out.write_text("mine")
