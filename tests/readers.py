@@ -46,12 +46,16 @@ def facts(points: NDArray[np.float64], polygons: Polygons) -> Facts:
     kept = [face for face in merged if len(set(face)) == 3]
     edges = Counter(tuple(sorted(pair)) for a, b, c in kept for pair in ((a, b), (b, c), (c, a)))
     used = {corner for face in kept for corner in face}
-    least = most = 0.0
+    alike: dict[int, Polygons] = {}
     for polygon in polygons:
-        corners = points[list(polygon)] - points[polygon[0]]
-        fan = np.cross(corners[1:-1], corners[2:]) / 2
-        least += float(np.linalg.norm(fan.sum(axis=0)))
-        most += float(np.linalg.norm(fan, axis=1).sum())
+        alike.setdefault(len(polygon), []).append(polygon)
+    least = most = 0.0
+    for each in alike.values():
+        corners = points[np.array(each)]
+        corners = corners - corners[:, :1]
+        fans = np.cross(corners[:, 1:-1], corners[:, 2:]) / 2
+        least += float(np.linalg.norm(fans.sum(axis=1), axis=1).sum())
+        most += float(np.linalg.norm(fans, axis=2).sum())
     boundary = sum(count == 1 for count in edges.values())
     return Facts(len(used), len(kept), len(used) - len(edges) + len(kept), boundary, (least, most))
 

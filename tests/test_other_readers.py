@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ def _vtk_ends() -> Iterator[None]:
         process.communicate()
 
 
+@cache
 def ours(path: Path) -> Facts:
     """The same facts from the report."""
     surface = curvcli.load(path, weld="exact")
