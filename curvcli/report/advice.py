@@ -16,6 +16,9 @@ SENTENCES = (
     "mesh; K_density, h and kappa_1 are the same of a single star and, as estimates, belong on regular meshes only.",
 )
 
+# Lines of text are no longer, however wide the terminal is.
+WIDEST = 100
+
 # What the numbers are, NOTE says; docs/accuracy.md has them all, with the commands that measure them.
 HEADER = ("columns", "what they are", "on the boundary", "error of K", "error of H, noise")
 ROWS = (
@@ -41,18 +44,22 @@ def markdown() -> str:
     return "\n".join([*lines, "", _marked(NOTE), ""])
 
 
-def plain() -> str:
-    """The same for a terminal of 100 columns."""
+def plain(terminal: int | None = None) -> str:
+    """The same as text; terminal: how wide it may be, with numbers alone in the table where there is little room."""
     from textwrap import wrap
 
+    width = min(terminal or WIDEST, WIDEST)
+    rows: list[tuple[str, ...]] = [HEADER, *ROWS]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADER))]
+    if terminal is not None and sum(widths) + 2 * len(widths) - 2 > terminal:
+        rows, widths = [(row[0], *row[3:]) for row in rows], [widths[0], *widths[3:]]
     parts = ["# Which curvature to take", ""]
     for sentence in SENTENCES:
-        parts += [*wrap(sentence, 98, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)]
-    widths = [max(len(row[k]) for row in (HEADER, *ROWS)) for k in range(len(HEADER))]
+        parts += [*wrap(sentence, width - 2, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)]
     parts.append("")
-    for row in (HEADER, *ROWS):
-        parts.append("  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())
-    return "\n".join([*parts, "", *wrap(NOTE, 100)]) + "\n"
+    for row in rows:
+        parts.append("  ".join(f"{cell:{space}}" for cell, space in zip(row, widths, strict=True)).rstrip())
+    return "\n".join([*parts, "", *wrap(NOTE, width)]) + "\n"
 
 
 def _marked(text: str) -> str:

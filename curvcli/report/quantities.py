@@ -109,7 +109,8 @@ def listing() -> None:
     console = report_console()
     console.print(fitting(console, tables))
     console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]\n")
-    console.print(escape(plain()), soft_wrap=True, end="")
+    advice = plain(console.width) if console.is_terminal else plain()
+    console.print(escape(advice), soft_wrap=True, end="")
 
 
 def _listed(headers: Sequence[str]) -> Table:

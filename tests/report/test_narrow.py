@@ -12,7 +12,7 @@ from curvcli.accuracy import ErrorNorms
 from curvcli.curves.collect import curves_of_surface
 from curvcli.curves.measure import CurveMeasures
 from curvcli.maps import SurfaceMap
-from curvcli.report import accuracy, check_text, curves, curves_text, differences, maps
+from curvcli.report import accuracy, advice, check_text, curves, curves_text, differences, maps
 from curvcli.report.check import CheckedMesh, CheckReport, Outcome, Rule
 from tests.meshes import of_sample
 
@@ -69,6 +69,16 @@ KINDS: dict[str, tuple[Callable[[], None], tuple[str, ...]]] = {
     "maps": (of_maps, ("nonconformality", "harmonic")),
     "errors": (of_errors, ("kappa_1_corrected_8e", "0.00123")),
 }
+
+
+@pytest.mark.parametrize("width", [60, 80, 100, 120])
+def test_the_advice_fits(width: int) -> None:
+    lines = advice.plain(width).splitlines()
+    assert max(map(len, lines)) <= width
+    assert (advice.plain() == advice.plain(width)) == (width == 120)
+    for cells in advice.ROWS:
+        (row,) = [line for line in lines if f"{line} ".startswith(f"{cells[0]} ")]
+        assert row.endswith(cells[4])
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])
