@@ -21,6 +21,11 @@ IRREGULAR = {"irregular_sphere", "irregular_torus"}
 
 
 @cache
+def limits_of(name: str) -> dict[str, float]:
+    return get(name)(size=FINE).limit
+
+
+@cache
 def totals(name: str, size: int) -> dict[str, float]:
     """Totals of a refinement, and nothing else of it, so that it can be forgotten."""
     made = get(name)(size=size)
@@ -47,6 +52,7 @@ def test_facts(name: str) -> None:
             assert (type(found), found) == (type(known), known), key
 
 
+@cache
 def limits() -> list[tuple[str, str]]:
     return [(name, key) for name in names() for key in get(name)().limit]
 
@@ -63,7 +69,7 @@ def converges(name: str, key: str) -> bool:
 def test_limits(name: str, key: str) -> None:
     """Errors fall at first order in the edges (curvature is missing along the boundary) or faster, or are rounding."""
     far, near = (totals(name, size)[key] for size in (COARSE, FINE))
-    limit = get(name)(size=FINE).limit[key]
+    limit = limits_of(name)[key]
     size = max(abs(limit), 1.0)
     assert abs(near - limit) < 1e-10 * size or abs(near - limit) < 0.35 * abs(far - limit)
     assert abs(near - limit) < 0.25 * size
@@ -72,6 +78,6 @@ def test_limits(name: str, key: str) -> None:
 @pytest.mark.parametrize(("name", "key"), [pair for pair in limits() if not converges(*pair)])
 def test_totals_that_stay_too_large(name: str, key: str) -> None:
     far, near = (totals(name, size)[key] for size in (COARSE, FINE))
-    limit = get(name)(size=FINE).limit[key]
+    limit = limits_of(name)[key]
     assert near > 1.05 * limit
     assert near == pytest.approx(far, rel=0.03)
