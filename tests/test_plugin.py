@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.exact_values import MESHES
+
 PLUG_IN = '''
 import numpy as np
 from curvcli.declare import curvature_pass
@@ -40,13 +42,13 @@ def run(environment: dict[str, str], *arguments: str) -> subprocess.CompletedPro
 
 def test_a_plug_in_adds_a_quantity(tmp_path: Path) -> None:
     environment = install(tmp_path, PLUG_IN)
-    mesh = tmp_path / "cube.obj"
-    assert run(environment, "sample", "cube", "-o", str(mesh)).returncode == 0
+    mesh, output = str(MESHES["cube"]), tmp_path / "k.csv"
     assert "K_p² / A_p" in run(environment, "passes", "K_squared").stdout
-    table = run(environment, "analyze", str(mesh), "-p", "K_squared", "-o", "-", "--format", "csv").stdout.splitlines()
+    what = ("--get", "totals.K_squared")
+    total = run(environment, "analyze", mesh, "-p", "K_squared", "-o", str(output), *what).stdout
+    table = output.read_text().splitlines()
     assert table[0].split(",")[-1] == "K_squared"
     squares = [float(row.split(",")[-1]) for row in table[1:]]
-    total = run(environment, "analyze", str(mesh), "-p", "K_squared", "--get", "totals.K_squared").stdout
     assert abs(float(total) - sum(squares)) < 1e-12
     assert min(squares) > 0
 
