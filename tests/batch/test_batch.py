@@ -249,7 +249,12 @@ main()
 def test_workers_that_started_in_vain_are_gone(scans: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[subprocess.Popen[bytes]] = []
     start = processes._start
-    monkeypatch.setattr(processes, "_start", lambda: started.append(start()) or started[-1])
+
+    def watched() -> subprocess.Popen[bytes]:
+        started.append(start())
+        return started[-1]
+
+    monkeypatch.setattr(processes, "_start", watched)
     assert run("batch", "scans/a.*", "-o", "out", "-p", "nothing").code == 2
     assert started
     assert all(process.poll() is not None for process in started)

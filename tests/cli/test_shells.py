@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import select
 import shutil
-import signal
+import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -39,16 +39,25 @@ LINES = {
 }
 
 
+# Makes the pseudo-terminal that it was given the one that it is controlled by, as a shell expects.
+SIT_DOWN = "import fcntl, os, sys, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0); os.execvp(sys.argv[1], sys.argv[1:])"
+
+
 class Terminal:
     """A shell that somebody sits at."""
 
     def __init__(self, shell: str, home: Path) -> None:
-        self.shell, self.seen = shell, b""
+        self.seen = b""
         environment = {"HOME": str(home), "PATH": f"{home}:{os.environ['PATH']}", "TERM": "dumb", "LC_ALL": "C.UTF-8"}
-        self.child, self.screen = pty.fork()
-        if self.child == 0:
-            os.chdir(home)
-            os.execvpe(shell, [shell, "-i"], environment)
+        self.screen, inside = pty.openpty()
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", SIT_DOWN, shell, "-i"],
+            **dict.fromkeys(("stdin", "stdout", "stderr"), inside),
+            cwd=home,
+            env=environment,
+            start_new_session=True,
+        )
+        os.close(inside)
         self.until(b"READY> ")
 
     def type(self, keys: str) -> None:
@@ -64,8 +73,8 @@ class Terminal:
         return shown
 
     def leave(self) -> None:
-        os.kill(self.child, signal.SIGKILL)
-        os.waitpid(self.child, 0)
+        self.process.kill()
+        self.process.wait()
         os.close(self.screen)
 
 
