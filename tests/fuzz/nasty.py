@@ -158,8 +158,11 @@ def _obj_files() -> None:
             "calls.obj": (b"call nasty.obj a b\ncsh -rm\nmtllib " + b"../" * 99 + b"etc/passwd\n" + TETRAHEDRON, 4),
             "empty.obj": (b"", "no data found"),
             "zeros.obj": (bytes(1000), "no OBJ record"),
-            "html.obj": (b"<html><body>404</body></html>", "no OBJ record"),
-            "pointer.obj": (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 9\n", "no OBJ record"),
+            "html.obj": (b"<html><body>404</body></html>", "a web page found"),
+            "pointer.obj": (
+                b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 9\n",
+                "a Git LFS pointer found",
+            ),
             "capitals.obj": (TETRAHEDRON.upper(), "no OBJ record"),
             "tar.obj": (_tar(b"#\n" + TETRAHEDRON), "a tar archive found"),
             "zip.obj": (b"PK\x03\x04" + bytes(50) + TETRAHEDRON, "a ZIP archive found"),
