@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,6 +44,8 @@ def census(surface: Surface, groups: Groups) -> Census:
 def _count(surface: Surface, groups: Groups) -> Census:
     vertices = groups.vertices.count_true(surface.referenced)
     edges, faces = groups.edges.members(), groups.faces.members()
+    uncancelled = np.zeros(groups.edges.size, bool)
+    uncancelled[surface.uncancelled.edge] = True
     boundary = groups.edges.count_true(surface.boundary_edges)
     many = groups.edges.count_true(surface.nonmanifold_edges)
     split = groups.vertices.count_true(surface.split_stars)
@@ -62,7 +65,7 @@ def _count(surface: Surface, groups: Groups) -> Census:
         (many == 0) & (split == 0),
         orientable,
         ~groups.edges.any(surface.winding_conflicts),
-        ~groups.edges.any(surface.half_edge_sum != 0),
+        ~groups.edges.any(uncancelled),
     )
 
 
@@ -108,7 +111,8 @@ def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
 
 
 def _duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
-    suspects = np.flatnonzero(_shared_keys(position_keys(surface.xyz_given)) & surface.referenced)
+    shared = _shared_keys(lambda: position_keys(surface.xyz_given))
+    suspects = np.flatnonzero(shared & surface.referenced)
     first, _ = weld_exact(surface.xyz_given[:, suspects])
     again = np.ones(len(suspects), bool)
     again[first] = False
@@ -121,12 +125,7 @@ def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
 
 
 def _duplicate_faces(surface: Surface) -> NDArray[np.int64]:
-    key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
-    keys = np.empty(surface.n_faces, np.uint64)
-    for block in face_blocks(surface.n_faces):
-        a, b, c = by_corner(surface.faces[block])
-        keys[block] = key[a] + key[b] + key[c]
-    suspects = np.flatnonzero(_shared_keys(keys))
+    suspects = np.flatnonzero(_shared_keys(lambda: _corner_keys(surface)))
     if not len(suspects):
         return suspects
     corners = np.sort(surface.faces[suspects], axis=1)
@@ -135,8 +134,23 @@ def _duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     return np.sort(suspects[order[1:][again]])
 
 
-def _shared_keys(keys: NDArray[np.uint64]) -> Mask:
-    """Which members carry a key that another one carries too."""
-    ordered = np.sort(keys)
-    repeated = ordered[1:][ordered[1:] == ordered[:-1]]
-    return np.isin(keys, repeated) if len(repeated) else np.zeros(len(keys), bool)
+def _corner_keys(surface: Surface) -> NDArray[np.uint64]:
+    """(F,) the same number for faces with the same corners, and hardly ever for others."""
+    key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
+    keys = np.empty(surface.n_faces, np.uint64)
+    for block in face_blocks(surface.n_faces):
+        a, b, c = by_corner(surface.faces[block])
+        keys[block] = key[a] + key[b] + key[c]
+    return keys
+
+
+def _shared_keys(make: Callable[[], NDArray[np.uint64]]) -> Mask:
+    """Which members carry a key that another one carries too; keys are sorted in place and made again if need be."""
+    ordered = make()
+    ordered.sort()
+    same = ordered[1:] == ordered[:-1]
+    if not same.any():
+        return np.zeros(len(ordered), bool)
+    repeated = ordered[1:][same]
+    del ordered
+    return np.isin(make(), repeated)

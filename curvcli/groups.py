@@ -103,7 +103,8 @@ def whole(surface: Surface, kind: str = "whole", names: tuple[str, ...] = ()) ->
     """The whole surface as one group; unreferenced vertices have only nulls to add."""
     sizes = surface.n_faces, surface.n_vertices, len(surface.edges)
     faces, vertices, edges = (Segments(None, 1, size) for size in sizes)
-    return Groups(kind, 1, np.zeros(surface.n_faces, np.int32), faces, vertices, edges, names)
+    face = np.broadcast_to(np.int32(0), surface.n_faces)  # without memory of its own
+    return Groups(kind, 1, face, faces, vertices, edges, names)
 
 
 def by_label(surface: Surface, face: Index, count: int, kind: str, names: tuple[str, ...] = ()) -> Groups:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,7 +77,7 @@ def orient_stars(faces: Index, edges: Edges) -> Sign:
     return sign.astype(np.int8).reshape(-1, 3)
 
 
-def _ways(faces: Index, half_edges: Index | slice, orientation: Orientation) -> Sign:
+def _ways(faces: Index, half_edges: Index, orientation: Orientation) -> Sign:
     """+1 where the oriented face runs along its half-edge from the lower end to the higher, else -1."""
     tail, head = ends(faces)
     way = np.where(tail[half_edges] < head[half_edges], 1, -1).astype(np.int8)
@@ -85,21 +86,36 @@ def _ways(faces: Index, half_edges: Index | slice, orientation: Orientation) -> 
     return way
 
 
-def half_edge_sum(faces: Index, edges: Edges, orientation: Orientation, consistent: bool) -> NDArray[np.int32]:
-    """(E,) oriented faces that run along each edge from a to b, less those from b to a: 0 where they cancel.
+class Uncancelled(NamedTuple):
+    """Edges along which the oriented faces do not run as often from a to b as from b to a.
+
+    edge: (n,) which edges. a, b: (n,) their ends. surplus: (n,) faces that run from a to b less those from b to a.
+    """
+
+    edge: NDArray[np.intp]
+    a: Index
+    b: Index
+    surplus: NDArray[np.int32]
+
+
+def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent: bool) -> Uncancelled:
+    """The edges along which the oriented faces do not cancel.
 
     consistent: whether no edge with n_e = 2 has two faces that run along it the same way.
     """
+    edge = np.arange(len(edges))
     if consistent and orientation.face_sign is None:
         # Two faces that agree cancel: something is left only at edges with one face or with more than two.
-        left, odd = np.zeros(len(edges), np.int32), edges.valence != 2
-        if odd.any():
-            valence = edges.valence[odd]
-            way = _ways(faces, edges.order[np.repeat(odd, edges.valence)], orientation)
-            left[odd] = np.add.reduceat(way, np.cumsum(valence) - valence, dtype=np.int32)
-        return left
-    way = _ways(faces, slice(None), orientation)
-    return np.add.reduceat(way[edges.order], edges.start[:-1], dtype=np.int32)
+        edge = np.flatnonzero(edges.valence != 2)
+    if not len(edge):
+        return Uncancelled(edge, edges.a[edge], edges.b[edge], np.zeros(0, np.int32))
+    valence = edges.valence[edge]
+    half_edges = edges.order if len(edge) == len(edges) else edges.order[np.repeat(edges.valence != 2, edges.valence)]
+    way = _ways(faces, half_edges, orientation)
+    surplus = np.add.reduceat(way, np.cumsum(valence) - valence, dtype=np.int32)
+    left = np.flatnonzero(surplus)
+    edge = edge[left]
+    return Uncancelled(edge, edges.a[edge], edges.b[edge], surplus[left])
 
 
 def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask:

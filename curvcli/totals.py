@@ -80,17 +80,25 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
 
     H and its residual are NaN on groups without an orientation and where no vertex is inside.
     """
-    H_vec, A_vec = (np.where(surface.interior, columns[name], np.nan) for name in ("H_vec", "A_vec"))
-    vertices = groups.vertices
-    square = vertices.sum(dot(A_vec, A_vec))
-    H = -vertices.sum(dot(H_vec, A_vec)) / np.where(square > np.finfo(np.float64).tiny, square, np.nan)
-    each = H[0] if vertices.label is None else np.append(H, np.nan)[vertices.label]
-    residual = H_vec + each * A_vec
+    vertices, inside = groups.vertices, surface.interior
+    products, squares, sizes = np.full((3, surface.n_vertices), np.nan)
+    for block in face_blocks(surface.n_vertices):
+        H_vec, A_vec = columns["H_vec"][:, block], columns["A_vec"][:, block]
+        each = dot(H_vec, A_vec), dot(A_vec, A_vec), np.sqrt(dot(H_vec, H_vec))
+        for target, values in zip((products, squares, sizes), each, strict=True):
+            np.copyto(target[block], values, where=inside[block])
+    square = vertices.sum(squares)
+    H = -vertices.sum(products) / np.where(square > np.finfo(np.float64).tiny, square, np.nan)
+    residual = squares  # no longer needed
+    for block in face_blocks(surface.n_vertices):
+        each_H = H[0] if vertices.label is None else np.append(H, np.nan)[vertices.label[block]]
+        rest = columns["H_vec"][:, block] + each_H * columns["A_vec"][:, block]
+        np.copyto(residual[block], np.sqrt(dot(rest, rest)), where=inside[block])
     orientable = census(surface, groups).orientable
     return {
         "H": np.where(orientable, H, np.nan),
-        "residual_max": np.where(orientable, vertices.max(np.sqrt(dot(residual, residual))), np.nan),
-        "H_vec_max": vertices.max(np.sqrt(dot(H_vec, H_vec))),
+        "residual_max": np.where(orientable, vertices.max(residual), np.nan),
+        "H_vec_max": vertices.max(sizes),
     }
 
 

@@ -141,12 +141,11 @@ def vector_area(
     surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, half_perimeters: Column
 ) -> Outcome:
     """½ Σ a × b over the oriented half-edges that do not cancel = Σ area ν; 0 on closed surfaces."""
-    left = np.flatnonzero(surface.half_edge_sum)
-    times = surface.half_edge_sum[left]
+    left, times = surface.uncancelled, surface.uncancelled.surplus
     base = surface.base[:, None]
-    a, b = (surface.xyz[:, end[left]] - base for end in (surface.edges.a, surface.edges.b))
-    label = None if groups.edges.label is None else groups.edges.label[left]
-    segments = Segments(label, groups.count, len(left))
+    a, b = (surface.xyz[:, end] - base for end in (left.a, left.b))
+    label = None if groups.edges.label is None else groups.edges.label[left.edge]
+    segments = Segments(label, groups.count, len(times))
     swept = [0.5 * part * times for part in cross(a, b)]
     expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)
     span = 0.5 * np.sqrt(dot(a, a)) * np.sqrt(dot(b, b)) * np.abs(times)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from typing import Any
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blocks import face_blocks
 from ..declare import Quantity
 
 
@@ -47,19 +50,26 @@ def statistics(
     low, median, high = (_quantile(ordered, share, size) for share in (0.02, 0.5, 0.98))
     first, last = float(ordered[0]), float(ordered[-1])
     scaled = np.divide(numbers, size, out=ordered)
-    weight = float(area.sum())
+    mean, weight = float(scaled.mean()), float(area.sum())
+    by_area = _sum(lambda block: scaled[block] * area[block], len(scaled))
+    square = _sum(lambda block: np.square(scaled[block] - mean), len(scaled))
     return ColumnStatistics(
         *described,
         first,
         last,
-        float(scaled.mean() * size),
-        float((scaled * area).sum() / weight * size) if weight > 0 else None,
-        float(scaled.std() * size),
+        float(mean * size),
+        float(by_area / weight * size) if weight > 0 else None,
+        float(math.sqrt(square / len(scaled)) * size),
         low,
         median,
         high,
         nulls,
     )
+
+
+def _sum(part: Callable[[slice], NDArray[np.float64]], count: int) -> float:
+    """The sum of numbers that are made a block at a time."""
+    return math.fsum(float(part(block).sum()) for block in face_blocks(count))
 
 
 def _quantile(ordered: NDArray[np.float64], share: float, size: float) -> float:
