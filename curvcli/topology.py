@@ -49,12 +49,6 @@ class Edges:
         begin = self.start[:-1][self.valence == 2]
         return self.order[begin], self.order[begin + 1]
 
-    def of_half_edges(self) -> Index:
-        """(3F,) the edge of each half-edge."""
-        edge = np.empty(len(self.order), np.int32)
-        edge[self.order] = np.repeat(np.arange(len(self), dtype=np.int32), self.valence)
-        return edge
-
 
 def ends(faces: Index) -> tuple[Index, Index]:
     """Tail and head of every half-edge, (3F,) each."""

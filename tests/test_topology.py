@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest import mock
+
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
@@ -32,6 +34,23 @@ def test_the_report_counts_what_there_is(given: Mesh) -> None:
     for number, piece in enumerate(report["components"]):
         wanted = brute.facts(number)
         assert {key: piece["topology"][key] for key in wanted} == wanted
+
+
+@settings(max_examples=60)
+@given(strategies.any_mesh())
+@example(meshes.book(3))
+@example(meshes.mobius())
+@example(meshes.two_bodies())
+def test_edges_that_were_let_go_change_nothing(given: Mesh) -> None:
+    kept = curvcli.analyze(given.surface(), "paper")
+    with mock.patch("curvcli.analysis.MEMORY_COUNTS", 0):
+        found = curvcli.analyze(given.surface(), "core")
+        assert "edges" not in vars(found.surface)
+        again = curvcli.analyze(given.surface(), "paper")
+    wanted = kept.report()
+    wanted.pop("timings")
+    assert {key: again.report()[key] for key in wanted} == wanted
+    assert found.report()["topology"] == wanted["topology"]
 
 
 @settings(max_examples=150)

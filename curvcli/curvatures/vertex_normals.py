@@ -128,7 +128,8 @@ class _Fit:
         low, high = (np.array([sign * members.max(sign * x) for x in used]) for sign in (-1.0, 1.0))
         middle, extent = low + 0.5 * (high - low), (high - low).max(axis=0)
         several = members.label is not None
-        self._at = np.array(surface.xyz) - (middle[:, members.label] if several else middle)
+        # What no face uses is in no neighbourhood, and need not be a number.
+        self._at = np.where(surface.referenced, surface.xyz - (middle[:, members.label] if several else middle), 0.0)
         self._lost = _LOST * np.square(extent[members.label] if several else np.full(surface.n_vertices, extent[0]))
         self._square = np.empty((6, surface.n_vertices))
         self._residual = np.empty((3, surface.n_vertices))
