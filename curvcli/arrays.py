@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError
 from .topology import Index
+
+_Found = TypeVar("_Found", bound=NDArray[Any])
 
 
 def as_components(points: ArrayLike) -> NDArray[np.float64]:
@@ -43,6 +47,18 @@ def _copy(given: NDArray[Any]) -> bool | None:
             return True
         owner = owner.base
     return None if owner is None or isinstance(owner, bytes) else True
+
+
+def frozen(find: Callable[[Any], _Found]) -> Callable[[Any], _Found]:
+    """The function, its array read-only: it is kept, and whoever asks next must find it as it was."""
+
+    @wraps(find)
+    def found(owner: Any) -> _Found:
+        array = find(owner)
+        array.setflags(write=False)
+        return array
+
+    return found
 
 
 def freeze(array: NDArray[Any]) -> None:

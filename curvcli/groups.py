@@ -90,6 +90,9 @@ class Groups:
     edges: Segments
     names: tuple[str, ...] = ()
 
+    def __post_init__(self) -> None:
+        self.face.setflags(write=False)
+
     def scope(self, group: int) -> str:
         """How a group is named in checks and messages."""
         return self.kind if self.kind == "whole" else f"{self.kind} {self.names[group] if self.names else group}"

@@ -26,6 +26,11 @@ class Orientation:
     orientable: Mask
     face_sign: Sign | None
 
+    def __post_init__(self) -> None:
+        for array in (self.patch, self.orientable, self.face_sign):
+            if array is not None:
+                array.setflags(write=False)
+
     @property
     def flipped(self) -> int:
         """Number of faces whose winding is turned for the computation."""

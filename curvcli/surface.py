@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arrays import as_components, as_triangles
+from .arrays import as_components, as_triangles, frozen
 from .blocks import face_blocks, signed_volumes
 from .errors import InputError, Notice
 from .groups import Groups, by_label, whole
@@ -67,8 +67,7 @@ class Surface:
 
     points: (V, 3) float64 in the file's unit and order. faces: (F, 3) int32 as wound in the file; faces with a repeated
     corner are dropped and counted (`notices`, code `repeated_corner_faces`).
-    face_of: (F,) the triangle's index among the triangles given, None if none was dropped; polygon: (F,) the polygon of
-    the file each face came from, None where they are the same.
+    polygon: (F,) the polygon of the file, or the triangle given, that each face came from; None if all are the same.
     Errors: InputError for a corner out of range, a coordinate of a face that is not finite, or no face at all.
     """
 
@@ -155,6 +154,7 @@ class Surface:
         return np.where(np.isinf(scaled) | tiny, np.nan, scaled)
 
     @cached_property
+    @frozen
     def xyz(self) -> NDArray[np.float64]:
         """(3, V) coordinates in the unit of computation, one contiguous row per coordinate."""
         if not self.unit_exponent:
@@ -163,6 +163,7 @@ class Surface:
             return np.ldexp(self.xyz_given, -self.unit_exponent)
 
     @cached_property
+    @frozen
     def base(self) -> NDArray[np.float64]:
         """(3,) a point of the mesh about which moments are taken, so that an offset costs no digits."""
         return self.xyz[:, self.faces[0, 0]].copy()
@@ -180,6 +181,7 @@ class Surface:
         return len(self.faces)
 
     @cached_property
+    @frozen
     def corner_count(self) -> Index:
         """(V,) number of faces at each vertex."""
         count = np.zeros(self.n_vertices, np.int32)
@@ -188,6 +190,7 @@ class Surface:
         return count
 
     @cached_property
+    @frozen
     def referenced(self) -> Mask:
         """(V,) vertices that some face uses."""
         mask: Mask = self.corner_count > 0
@@ -208,6 +211,7 @@ class Surface:
         self.__dict__.pop("edges", None)
 
     @cached_property
+    @frozen
     def degree(self) -> Index:
         """(V,) number of edges at each vertex."""
         return self._edge_ends()
@@ -220,40 +224,47 @@ class Surface:
         return count.astype(np.int32)
 
     @cached_property
+    @frozen
     def boundary_edges(self) -> Mask:
         """(E,) edges with n_e = 1."""
         mask: Mask = self.edges.valence == 1
         return mask
 
     @cached_property
+    @frozen
     def boundary_degree(self) -> Index:
         """(V,) number of boundary edges at each vertex."""
         return self._edge_ends(self.boundary_edges)
 
     @cached_property
+    @frozen
     def boundary(self) -> Mask:
         """(V,) boundary vertices: some edge there has n_e = 1."""
         mask: Mask = self.boundary_degree > 0
         return mask
 
     @cached_property
+    @frozen
     def boundary_half_edges(self) -> Index:
         """Half-edges of the boundary edges, in edge order."""
         return self.edges.half_edges(self.boundary_edges)
 
     @cached_property
+    @frozen
     def nonmanifold_edges(self) -> Mask:
         """(E,) edges with n_e > 2."""
         mask: Mask = self.edges.valence > 2
         return mask
 
     @cached_property
+    @frozen
     def nonmanifold_ends(self) -> Mask:
         """(V,) ends of edges with n_e > 2."""
         mask: Mask = self._edge_ends(self.nonmanifold_edges) > 0
         return mask
 
     @cached_property
+    @frozen
     def split_stars(self) -> Mask:
         """(V,) vertices whose star is not one fan and which are not the end of an edge with n_e > 2."""
         twin = find_twins(self.edges)
@@ -261,11 +272,13 @@ class Surface:
         return split & ~self.nonmanifold_ends
 
     @cached_property
+    @frozen
     def nonmanifold(self) -> Mask:
         """(V,) vertices of status `nonmanifold`."""
         return self.split_stars | self.nonmanifold_ends
 
     @cached_property
+    @frozen
     def interior(self) -> Mask:
         """(V,) vertices with one closed fan: neither on the boundary nor non-manifold nor unreferenced."""
         return self.referenced & ~self.boundary & ~self.nonmanifold
@@ -278,6 +291,7 @@ class Surface:
     # ------------------------------------------------------------------ orientation
 
     @cached_property
+    @frozen
     def winding_conflicts(self) -> Mask:
         """(E,) edges with n_e = 2 whose two faces run along them the same way in the file."""
         conflict = np.zeros(len(self.edges), bool)
@@ -313,6 +327,7 @@ class Surface:
         return bool(self.orientation.orientable.all())
 
     @cached_property
+    @frozen
     def without_orientation(self) -> Mask:
         """(V,) vertices of patches that have no orientation."""
         mask = np.zeros(self.n_vertices, bool)
@@ -337,11 +352,13 @@ class Surface:
         return uncancelled(self.faces, self.edges, self.orientation, self.consistent_winding)
 
     @cached_property
+    @frozen
     def closed_patches(self) -> Mask:
         """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
         return closed_patches(self.faces, self.edges, self._file_orientation)
 
     @cached_property
+    @frozen
     def inside_out(self) -> Mask:
         """(patches,) closed orientable patches whose volume is negative as the file winds them."""
         found = self._file_orientation
@@ -352,6 +369,7 @@ class Surface:
         return candidates & (np.bincount(found.patch, volume, minlength=len(candidates)) < 0)
 
     @cached_property
+    @frozen
     def face_volumes(self) -> NDArray[np.float64]:
         """(F,) volume of the tetrahedron that each face, as the file winds it, spans with a point of its component."""
         return signed_volumes(self, self.components.face)

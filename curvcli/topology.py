@@ -35,6 +35,10 @@ class Edges:
     order: Index
     start: Index
 
+    def __post_init__(self) -> None:
+        for array in (self.a, self.b, self.valence, self.order, self.start):
+            array.setflags(write=False)
+
     def __len__(self) -> int:
         return len(self.a)
 

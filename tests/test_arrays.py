@@ -113,6 +113,17 @@ def test_what_nobody_can_change_is_shared() -> None:
     assert np.shares_memory(turned.points, points)
 
 
+def test_what_a_surface_has_worked_out_is_read_only() -> None:
+    """Its arrays are kept, and whoever asks next must find them as they were."""
+    surface = meshes.zoo("cap").surface()
+    edges = surface.edges
+    arrays = [edges.a, edges.b, edges.valence, edges.order, surface.components.face, surface.orientation.patch]
+    arrays += [value for name in dir(surface) if isinstance(value := getattr(surface, name), np.ndarray)]
+    assert len(arrays) > 20
+    for array in arrays:
+        assert not array.flags.writeable
+
+
 # ---------------------------------------------------------------------------- between processes
 
 

@@ -129,7 +129,9 @@ class _Fit:
         middle, extent = low + 0.5 * (high - low), (high - low).max(axis=0)
         several = members.label is not None
         # What no face uses is in no neighbourhood, and need not be a number.
-        self._at = np.where(surface.referenced, surface.xyz - (middle[:, members.label] if several else middle), 0.0)
+        centre = middle[:, members.label] if several else np.broadcast_to(middle, (3, surface.n_vertices))
+        self._at = np.zeros((3, surface.n_vertices))
+        np.subtract(surface.xyz, centre, out=self._at, where=surface.referenced)
         self._lost = _LOST * np.square(extent[members.label] if several else np.full(surface.n_vertices, extent[0]))
         self._square = np.empty((6, surface.n_vertices))
         self._residual = np.empty((3, surface.n_vertices))
