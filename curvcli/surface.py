@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arrays import as_components, as_triangles, frozen
-from .blocks import face_blocks, signed_volumes
+from .blocks import signed_volumes
 from .errors import InputError, Notice
 from .groups import Groups, by_label, whole
+from .incidence import Incidence
 from .orientation import (
     Orientation,
     Sign,
@@ -21,20 +22,15 @@ from .orientation import (
     closed_patches,
     orient,
     orient_stars,
-    same_direction,
     uncancelled,
 )
 from .plurals import counted
 from .topology import (
-    Edges,
     Index,
     Mask,
     ends,
-    find_edges,
-    find_twins,
     label_graph,
     renumber_by_lowest_member,
-    split_stars,
     vertex_components,
 )
 
@@ -62,7 +58,7 @@ _OF_EDGES = (
 )
 
 
-class Surface:
+class Surface(Incidence):
     """A triangle mesh: points and faces, frozen, with its edges, stars, components and orientation.
 
     points: (V, 3) float64 in the file's unit and order. faces: (F, 3) int32 as wound in the file; faces with a repeated
@@ -103,7 +99,7 @@ class Surface:
             polygon = np.flatnonzero(~repeated).astype(np.int32) if polygon is None else polygon[~repeated]
             if not len(triangles):
                 raise InputError("no faces: every face has a repeated corner")
-        self.faces = triangles
+        self.faces, self.n_vertices = triangles, self.xyz_given.shape[1]
         self.faces.setflags(write=False)
         self.polygon = polygon
         self.file = file
@@ -168,140 +164,7 @@ class Surface:
         """(3,) a point of the mesh about which moments are taken, so that an offset costs no digits."""
         return self.xyz[:, self.faces[0, 0]].copy()
 
-    # ------------------------------------------------------------------ incidence
-
-    @property
-    def n_vertices(self) -> int:
-        """Rows of the file, unreferenced ones included."""
-        return int(self.xyz_given.shape[1])
-
-    @property
-    def n_faces(self) -> int:
-        """Triangles that are computed with."""
-        return len(self.faces)
-
-    @cached_property
-    @frozen
-    def corner_count(self) -> Index:
-        """(V,) number of faces at each vertex."""
-        count = np.zeros(self.n_vertices, np.int32)
-        for block in face_blocks(self.n_faces):
-            np.add.at(count, self.faces[block].ravel(), np.int32(1))
-        return count
-
-    @cached_property
-    @frozen
-    def referenced(self) -> Mask:
-        """(V,) vertices that some face uses."""
-        mask: Mask = self.corner_count > 0
-        return mask
-
-    @cached_property
-    def edges(self) -> Edges:
-        """Edges with their faces."""
-        return find_edges(self.faces, self.n_vertices)
-
-    def let_go_of_edges(self) -> None:
-        """Work out what every analysis asks of the edges, and give their memory back: 72 bytes per vertex.
-
-        Whatever asks for them later has them sorted again.
-        """
-        for known in _OF_EDGES:
-            getattr(self, known)
-        self.__dict__.pop("edges", None)
-
-    @cached_property
-    @frozen
-    def degree(self) -> Index:
-        """(V,) number of edges at each vertex."""
-        return self._edge_ends()
-
-    def _edge_ends(self, chosen: Mask | None = None) -> Index:
-        """(V,) how many of the chosen edges end at each vertex."""
-        a, b = (self.edges.a, self.edges.b) if chosen is None else (self.edges.a[chosen], self.edges.b[chosen])
-        count = np.bincount(a, minlength=self.n_vertices)
-        count += np.bincount(b, minlength=self.n_vertices)
-        return count.astype(np.int32)
-
-    @cached_property
-    @frozen
-    def boundary_edges(self) -> Mask:
-        """(E,) edges with n_e = 1."""
-        mask: Mask = self.edges.valence == 1
-        return mask
-
-    @cached_property
-    @frozen
-    def boundary_degree(self) -> Index:
-        """(V,) number of boundary edges at each vertex."""
-        return self._edge_ends(self.boundary_edges)
-
-    @cached_property
-    @frozen
-    def boundary(self) -> Mask:
-        """(V,) boundary vertices: some edge there has n_e = 1."""
-        mask: Mask = self.boundary_degree > 0
-        return mask
-
-    @cached_property
-    @frozen
-    def boundary_half_edges(self) -> Index:
-        """Half-edges of the boundary edges, in edge order."""
-        return self.edges.half_edges(self.boundary_edges)
-
-    @cached_property
-    @frozen
-    def nonmanifold_edges(self) -> Mask:
-        """(E,) edges with n_e > 2."""
-        mask: Mask = self.edges.valence > 2
-        return mask
-
-    @cached_property
-    @frozen
-    def nonmanifold_ends(self) -> Mask:
-        """(V,) ends of edges with n_e > 2."""
-        mask: Mask = self._edge_ends(self.nonmanifold_edges) > 0
-        return mask
-
-    @cached_property
-    @frozen
-    def split_stars(self) -> Mask:
-        """(V,) vertices whose star is not one fan and which are not the end of an edge with n_e > 2."""
-        twin = find_twins(self.edges)
-        split = split_stars(self.faces, self.edges, twin, self.consistent_winding, self.boundary_degree)
-        return split & ~self.nonmanifold_ends
-
-    @cached_property
-    @frozen
-    def nonmanifold(self) -> Mask:
-        """(V,) vertices of status `nonmanifold`."""
-        return self.split_stars | self.nonmanifold_ends
-
-    @cached_property
-    @frozen
-    def interior(self) -> Mask:
-        """(V,) vertices with one closed fan: neither on the boundary nor non-manifold nor unreferenced."""
-        return self.referenced & ~self.boundary & ~self.nonmanifold
-
-    @cached_property
-    def is_manifold(self) -> bool:
-        """Whether every n_e ≤ 2 and every star is one fan."""
-        return not self.nonmanifold.any()
-
     # ------------------------------------------------------------------ orientation
-
-    @cached_property
-    @frozen
-    def winding_conflicts(self) -> Mask:
-        """(E,) edges with n_e = 2 whose two faces run along them the same way in the file."""
-        conflict = np.zeros(len(self.edges), bool)
-        conflict[self.edges.valence == 2] = same_direction(self.faces, *self.edges.pairs())
-        return conflict
-
-    @cached_property
-    def consistent_winding(self) -> bool:
-        """Whether the file's winding is coherent across every edge with n_e = 2."""
-        return not self.winding_conflicts.any()
 
     @cached_property
     def _file_orientation(self) -> Orientation:
@@ -385,6 +248,15 @@ class Surface:
             return whole(self, "component")
         pieces, face = renumber_by_lowest_member(vertex[self.faces[:, 0]], count)
         return by_label(self, face, pieces, "component")
+
+    def let_go_of_edges(self) -> None:
+        """Work out what every analysis asks of the edges, and give their memory back: 72 bytes per vertex.
+
+        Whatever asks for them later has them sorted again.
+        """
+        for known in _OF_EDGES:
+            getattr(self, known)
+        self.__dict__.pop("edges", None)
 
     @cached_property
     def whole(self) -> Groups:
