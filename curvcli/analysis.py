@@ -215,8 +215,8 @@ def analyze(
     unit: str | None = None,
     regions: str | os.PathLike[str] | NDArray[np.integer[Any]] | None = None,
     checks: str | Iterable[str] | None = None,
-    rings: str | int | None = None,
-    radius: str | float | None = None,
+    rings: str | int | Iterable[str | int] | None = None,
+    radius: str | float | Iterable[str | float] | None = None,
     normals: Literal["mesh", "file"] = "mesh",
     noise: float | None = None,
 ) -> Analysis:
@@ -229,9 +229,9 @@ def analyze(
     the vertices of a file are merged, see `curvcli.load`. unit: a label for lengths. regions: a label per face
     (negative: none), or the name of the file, record or property that holds them. checks: names of the identities to
     test, whatever they need; None is those whose needs the chosen passes meet. rings, radius: how far estimates look,
-    in rings of edges or at a radius (a length, or mean edge lengths such as `3e`); several (`2e,4e`) give one column
-    for each. normals: whose normals the corrected curvatures use, the mesh's or those the file gives. noise: the
-    standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the precision of the coordinates.
+    in rings of edges or at a radius (a length, or mean edge lengths such as `3e`); several (`2e,4e`, or a list) give
+    one column for each. normals: whose normals the corrected curvatures use, the mesh's or those the file gives. noise:
+    the standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the precision of the coordinates.
     Errors: UsageError for an unknown name or an option that does not fit, InputError for a mesh that is no surface.
     """
     scales = parse_scales(rings, radius)

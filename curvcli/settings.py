@@ -68,8 +68,10 @@ def parse_radius(text: str) -> Scale:
     return Scale("edges" if kind == "edges" else "length", size)
 
 
-def parse_scales(ring_counts: str | int | None, radii: str | float | None) -> tuple[Scale, ...]:
-    """The scales of comma lists of ring counts and of radii, in that order and without repeats.
+def parse_scales(
+    ring_counts: str | int | Iterable[str | int] | None, radii: str | float | Iterable[str | float] | None
+) -> tuple[Scale, ...]:
+    """The scales of lists, or of texts with commas, of ring counts and of radii, in that order and without repeats.
 
     Errors: UsageError.
     """
@@ -92,8 +94,10 @@ def options_of(names: str) -> dict[str, str | None]:
     return {"rings": ",".join(counts) or None, "radius": ",".join(radii) or None}
 
 
-def _entries(value: str | float | None) -> Iterable[str]:
-    return () if value is None else str(value).split(",")
+def _entries(value: str | float | Iterable[str | float] | None) -> Iterable[str]:
+    if value is None:
+        return ()
+    return map(str, value) if isinstance(value, Iterable) and not isinstance(value, str) else str(value).split(",")
 
 
 def _count(text: str) -> int:

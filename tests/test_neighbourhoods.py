@@ -105,6 +105,8 @@ def test_names_of_scales_read_back() -> None:
     assert [scale.name for scale in scales] == ["1rings", "3rings", "2e", "r0.001", "0.1e", "r1e+22"]
     given = options_of(",".join(scale.name for scale in scales))
     assert parse_scales(given["rings"], given["radius"]) == scales
+    assert parse_scales([1, 3, 3], ["2e", 1e-3, "0.1e", 1e22]) == scales
+    assert parse_scales(np.int64(3), np.float64(0.5)) == parse_scales("3", "0.5")
 
 
 @pytest.mark.parametrize("text", ["", "e", "-1", "0", "nan", "inf", "1x", "0e"])
