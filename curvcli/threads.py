@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from itertools import islice
+from itertools import chain, islice
 from typing import TypeVar
 
 _Piece = TypeVar("_Piece")
@@ -20,6 +20,12 @@ def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
     Pieces are taken from an iterator as they are needed, so that few are there at a time.
     """
     todo = iter(pieces)
+    first = list(islice(todo, 2))
+    if len(first) < 2:  # not worth a thread
+        for piece in first:
+            work(piece)
+        return
+    todo = chain(first, todo)
     # The variable that numerical libraries obey; a batch sets it for its workers, each of which has one core.
     if (os.cpu_count() or 1) < _THREADS or os.environ.get("OMP_NUM_THREADS") == "1":
         for piece in todo:

@@ -166,3 +166,18 @@ def test_the_measures_themselves_do_not_change() -> None:
     for name in plain.vertices:
         np.testing.assert_array_equal(plain.vertices[name], wide.vertices[name])
     assert plain.conventions.scale is None
+
+
+def test_threads_and_blocks_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ["K_corrected", "kappa_1_corrected", "K_fit", "dir_1_fit", "K_ring", "h_ring"]
+    given = meshes.torus()
+
+    def found(threads: str, rows: int) -> list[bytes]:
+        monkeypatch.setenv("OMP_NUM_THREADS", threads)
+        monkeypatch.setattr("curvcli.neighbourhoods._ROWS_PER_BLOCK", rows)
+        analysis = curvcli.analyze(given.surface(), names, rings=2)
+        return [analysis.column(name).tobytes() for name in names]
+
+    whole = found("1", 1 << 16)
+    for threads, rows in (("2", 1 << 16), ("1", 16), ("2", 16)):
+        assert found(threads, rows) == whole
