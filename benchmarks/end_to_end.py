@@ -23,11 +23,12 @@ PEERS = {
 
 
 def measure(path: str, folder: Path, repeats: int) -> Results:
-    """Every way from one file to its outputs, in turn; all write into one folder."""
+    """Every way from one file to its outputs, in turn; all make the same two files anew."""
     csv, ply = str(folder / "out.csv"), str(folder / "out.ply")
-    ours = python("-m", "curvcli", "analyze", path, "--force", "-o", csv, "-o", ply)
-    cases = {OURS: Case([*ours, "-q", "-p", PEERS_COLUMNS]), SUMMARY: Case(ours)}
-    cases |= {name: Case(python("-m", "benchmarks.peers", *how, path, csv, ply)) for name, how in PEERS.items()}
+    ours = python("-m", "curvcli", "analyze", path, "-o", csv, "-o", ply)
+    commands = {OURS: [*ours, "-q", "-p", PEERS_COLUMNS], SUMMARY: ours}
+    commands |= {name: python("-m", "benchmarks.peers", *how, path, csv, ply) for name, how in PEERS.items()}
+    cases = {name: Case(command, outputs=(csv, ply)) for name, command in commands.items()}
     return interleaved(cases, repeats, f"end to end {Path(path).name}")
 
 

@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
@@ -29,10 +30,15 @@ Measured = dict[str, float]
 
 @dataclass(frozen=True)
 class Case:
-    """A command to be timed. environment: variables set for it, beside the present ones."""
+    """A command to be timed. environment: variables set for it, beside the present ones.
+
+    outputs: files that it makes; they are removed before, and what earlier commands wrote is on the disk by then, so
+    that nobody pays for the files of another.
+    """
 
     command: Sequence[str]
     environment: Mapping[str, str] = field(default_factory=dict)
+    outputs: Sequence[str] = ()
 
 
 @dataclass
@@ -63,6 +69,10 @@ def run(case: Case) -> Measured | str:
     """Run a case in a process of its own: `wall` and whatever it prints as JSON on its last line, or why it failed."""
     paths = [ROOT, os.environ.get("PYTHONPATH", "")]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths)), **case.environment}
+    for output in case.outputs:
+        Path(output).unlink(missing_ok=True)
+    if case.outputs and hasattr(os, "sync"):
+        os.sync()
     begin = time.perf_counter()
     try:
         done = subprocess.run(case.command, capture_output=True, text=True, timeout=LIMIT_SECONDS, env=environment)
