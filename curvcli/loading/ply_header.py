@@ -115,7 +115,7 @@ def parse_header(data: bytes) -> Header:
                 elements[-1][2].append(Property(name, _type(kind, order, place), length_type))
             case ["property", str(kind), str(name)] if elements and order:
                 elements[-1][2].append(Property(name, _type(kind, order, place)))
-            case [str(keyword), *_] if not elements and keyword not in ("format", "element", "property"):
+            case [str(keyword), *_] if not elements and keyword not in ("format", "element", "property", "end_header"):
                 unknown.append(number)
             case _:
                 raise InputError(f"`{' '.join(words)[:60]}` found, a PLY header statement expected", place=place)
