@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+import os
+import re
+import stat
 from collections.abc import Iterator, Mapping
 from threading import Event
 from typing import IO, Any, BinaryIO, TypeAlias, cast
@@ -49,19 +52,34 @@ def write_table(
         if suffix == ".parquet":
             _write_parquet(relay, columns)
         else:
-            _write_text(relay, columns, _SEPARATORS[suffix], digits)
-    except Exception:
-        # polars words the failure of a stream in its own way; what the stream raised says more.
+            _write_text(_regular(stream) or relay, columns, _SEPARATORS[suffix], digits, stop)
+    except Exception as error:
+        # polars words the failure of a stream in its own way; what the stream or the system raised says more.
         if relay.failure is not None:
             raise relay.failure from None
+        if number := re.search(r"\(os error (\d+)\)$", str(error)):
+            raise OSError(int(number[1]), os.strerror(int(number[1]))) from None
         raise
 
 
-def _write_text(relay: _Relay, columns: Mapping[str, Column], separator: str, digits: int | None) -> None:
+def _regular(stream: BinaryIO) -> io.FileIO | None:
+    """The file behind a stream, which polars writes to without copies that pass through the interpreter."""
+    raw = getattr(stream, "raw", None)
+    if not isinstance(raw, io.FileIO) or not stat.S_ISREG(os.fstat(raw.fileno()).st_mode):
+        return None
+    stream.flush()
+    return raw
+
+
+def _write_text(
+    to: io.RawIOBase, columns: Mapping[str, Column], separator: str, digits: int | None, stop: Event | None
+) -> None:
     for number, frame in enumerate(_frames(columns)):
+        if stop is not None and stop.is_set():
+            raise InterruptedError("told to stop")
         text = frame if digits is None else frame.with_columns(_rounded(frame, digits))
         text.write_csv(
-            cast("IO[bytes]", relay), separator=separator, include_header=not number, batch_size=_ROWS_AT_A_TIME
+            cast("IO[bytes]", to), separator=separator, include_header=not number, batch_size=_ROWS_AT_A_TIME
         )
 
 
