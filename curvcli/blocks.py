@@ -6,7 +6,7 @@ and `np.add.at` scatters; this is several times faster than the same formulas on
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compensated import cross_of_edges
+from .slices import slices
 from .topology import Index, Mask
 
 if TYPE_CHECKING:
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Vector = Sequence[Floats] | Floats
 
-FACES_PER_BLOCK = 16384
 EPSILON = float(np.finfo(np.float64).eps)
 
 # Stars of more faces are summed in pairs.
@@ -124,11 +124,6 @@ def _length(vector: Vector) -> Floats:
     return length
 
 
-def face_blocks(count: int, size: int = FACES_PER_BLOCK) -> Iterator[slice]:
-    """Slices that cover 0 … count."""
-    return (slice(start, min(start + size, count)) for start in range(0, count, size))
-
-
 def signed_volumes(surface: Surface, label: Index) -> Floats:
     """(F,) volume of the tetrahedron that each face, as the file winds it, spans with the base point of its group.
 
@@ -142,7 +137,7 @@ def signed_volumes(surface: Surface, label: Index) -> Floats:
         first = np.full(int(label.max()) + 1, surface.n_faces, np.int64)
         np.minimum.at(first, label, np.arange(surface.n_faces))
         base = xyz[:, faces[first, 0]]
-    for block in face_blocks(surface.n_faces):
+    for block in slices(surface.n_faces):
         face = faces[block]
         at = base if base.shape[1] == 1 else base[:, label[block]]
         p, q, r = ([x.take(corner) - b for x, b in zip(xyz, at, strict=True)] for corner in by_corner(face))
@@ -181,7 +176,7 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     vector, gradient = np.zeros((3, n)), np.zeros((3, n))
     face_area = np.empty(n_faces)
     degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
-    for block in face_blocks(n_faces):
+    for block in slices(n_faces):
         face = by_corner(faces[block])
         t = triangles(xyz, faces[block])
         sixth, half_perimeter = t.twice_area / 6, t.half_perimeter()
@@ -221,7 +216,7 @@ def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
         return
     chosen = np.flatnonzero(large[surface.faces].any(axis=1))
     vertices, terms = [], []
-    for block in face_blocks(len(chosen)):
+    for block in slices(len(chosen)):
         face = surface.faces[chosen[block]]
         sign = None if surface.corner_sign is None else surface.corner_sign[chosen[block]]
         t = triangles(surface.xyz, face)

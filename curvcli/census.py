@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import by_corner, face_blocks
+from .blocks import by_corner
 from .groups import Groups
 from .loading.weld import position_keys, weld_exact
 from .once import once
+from .slices import slices
 from .surface import Surface
 
 Counts = NDArray[np.int64]
@@ -138,7 +139,7 @@ def _corner_keys(surface: Surface) -> NDArray[np.uint64]:
     """(F,) the same number for faces with the same corners, and hardly ever for others."""
     key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
     keys = np.empty(surface.n_faces, np.uint64)
-    for block in face_blocks(surface.n_faces):
+    for block in slices(surface.n_faces):
         a, b, c = by_corner(surface.faces[block])
         keys[block] = key[a] + key[b] + key[c]
     return keys

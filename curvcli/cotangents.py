@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import Triangles, Vector, dot, face_blocks, triangles
+from .blocks import Triangles, Vector, dot, triangles
+from .slices import slices
 
 if TYPE_CHECKING:
     from .surface import Surface
@@ -40,7 +41,7 @@ def dirichlet(surface: Surface, f: Floats) -> Dirichlet:
     n = surface.n_vertices
     energy, energy_terms = np.empty(surface.n_faces), np.empty(surface.n_faces)
     gradient, gradient_terms = np.zeros((3, n)), np.zeros(n)
-    for block in face_blocks(surface.n_faces):
+    for block in slices(surface.n_faces):
         face = surface.faces[block]
         t = triangles(surface.xyz, face)
         sides = (t.v, t.w, t.u) if f is surface.xyz else _opposite_sides(f, face)

@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from .arrays import frozen
-from .blocks import face_blocks
 from .orientation import same_direction
-from .topology import Edges, Index, Mask, find_edges, find_twins, split_stars
+from .slices import slices
+from .topology import Edges, Index, Mask, find_edges, split_stars
 
 
 class Incidence:
@@ -31,7 +31,7 @@ class Incidence:
     def corner_count(self) -> Index:
         """(V,) number of faces at each vertex."""
         count = np.zeros(self.n_vertices, np.int32)
-        for block in face_blocks(self.n_faces):
+        for block in slices(self.n_faces):
             np.add.at(count, self.faces[block].ravel(), np.int32(1))
         return count
 
@@ -51,14 +51,19 @@ class Incidence:
     @frozen
     def degree(self) -> Index:
         """(V,) number of edges at each vertex."""
-        return self._edge_ends()
+        # Each face has two edges at a corner, so the numbers n_e of the edges at a vertex add up to twice its faces:
+        # only edges with another n_e than 2 make a difference.
+        twice, odd = 2 * self.corner_count, np.flatnonzero(self.edges.valence != 2)
+        for end in (self.edges.a, self.edges.b):
+            np.add.at(twice, end[odd], 2 - self.edges.valence[odd])
+        return twice // np.int32(2)
 
-    def _edge_ends(self, chosen: Mask | None = None) -> Index:
+    def _edge_ends(self, chosen: Mask) -> Index:
         """(V,) how many of the chosen edges end at each vertex."""
-        a, b = (self.edges.a, self.edges.b) if chosen is None else (self.edges.a[chosen], self.edges.b[chosen])
-        count = np.bincount(a, minlength=self.n_vertices)
-        count += np.bincount(b, minlength=self.n_vertices)
-        return count.astype(np.int32)
+        count, edges = np.zeros(self.n_vertices, np.int32), np.flatnonzero(chosen)
+        for end in (self.edges.a, self.edges.b):
+            np.add.at(count, end[edges], np.int32(1))
+        return count
 
     @cached_property
     @frozen
@@ -104,8 +109,8 @@ class Incidence:
     @frozen
     def split_stars(self) -> Mask:
         """(V,) vertices whose star is not one fan and which are not the end of an edge with n_e > 2."""
-        twin = find_twins(self.edges)
-        split = split_stars(self.faces, self.edges, twin, self.consistent_winding, self.boundary_degree)
+        corners, boundary = self.corner_count, self.boundary_degree
+        split = split_stars(self.faces, self.edges, corners, self.consistent_winding, boundary)
         return split & ~self.nonmanifold_ends
 
     @cached_property

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON, Floats, dot, face_blocks, triangles
+from .blocks import EPSILON, Floats, dot, triangles
 from .doubledouble import THIN_COTANGENT, DoubleDouble, corner_products, empty
 from .gluing import after, before, glue
+from .slices import slices
 from .topology import Mask
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ class IntrinsicTriangulation:
         """(3F,) cotangent of the angle opposite each side, and the faces that are too thin for plain arithmetic."""
         corners = self.tail.reshape(-1, 3)
         cotangent, thin = np.empty(corners.shape), np.empty(len(corners), bool)
-        for block in face_blocks(len(corners)):
+        for block in slices(len(corners)):
             t = triangles(self.xyz, corners[block])
             with np.errstate(divide="ignore", invalid="ignore"):
                 opposite = [t.cosines[k - 1] / t.twice_area for k in range(3)]
@@ -102,7 +103,7 @@ class IntrinsicTriangulation:
 
     def _weigh(self, edges: Indices) -> None:
         """Weights of the given edges, and whether they must be flipped."""
-        for block in face_blocks(len(edges), _FLIPS_PER_BLOCK):
+        for block in slices(len(edges), _FLIPS_PER_BLOCK):
             edge = edges[block]
             here, there, free = self._sides(edge)
             thin = self._thin[here // 3] | self._thin[there // 3]
@@ -114,7 +115,7 @@ class IntrinsicTriangulation:
 
     def _weigh_thin(self, edges: Indices) -> None:
         """The same to twice the digits, for edges of thin faces."""
-        for block in face_blocks(len(edges), _FLIPS_PER_BLOCK):
+        for block in slices(len(edges), _FLIPS_PER_BLOCK):
             edge = edges[block]
             here, there, free = self._sides(edge)
             f, g = here // 3, there // 3
@@ -172,7 +173,7 @@ class IntrinsicTriangulation:
         The faces p q r and q p s at edge p q are laid out in the plane with p q as axis, where the corner products and
         areas are the coordinates of r and s; they become q r s and p s r.
         """
-        for block in face_blocks(len(edges), _FLIPS_PER_BLOCK):
+        for block in slices(len(edges), _FLIPS_PER_BLOCK):
             edge = edges[block]
             pq = self.side[edge]
             qp = self.mates[edge] - pq

@@ -11,8 +11,9 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from scipy.sparse import csr_array
 
-from .blocks import Floats, dot, face_blocks
+from .blocks import Floats, dot
 from .settings import Scale
+from .slices import slices
 from .surface import Surface
 from .threads import for_each
 from .topology import Index, Mask
@@ -46,7 +47,7 @@ def adjacency(surface: Surface) -> Pattern:
 def mean_edge_length(surface: Surface) -> float:
     """The mean length of all edges, in the unit of computation."""
     total = 0.0
-    for block in face_blocks(len(surface.edges)):
+    for block in slices(len(surface.edges)):
         a, b = surface.edges.a[block], surface.edges.b[block]
         span = [x[b] - x[a] for x in surface.xyz]
         total += float(np.sqrt(dot(span, span)).sum())
@@ -76,7 +77,7 @@ def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Patt
     grow = _Rings(surface, scale) if scale.kind == "rings" else _Balls(surface, scale)
     size = max(min(_ROWS_PER_BLOCK, _ENTRIES_PER_BLOCK // grow.expected), 1)
     entries, found = 0, []
-    for block in face_blocks(surface.n_vertices, size):
+    for block in slices(surface.n_vertices, size):
         for place, rows in _grown(grow, block):
             entries += rows.nnz
             if entries <= _MOST_KEPT:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON, dot, face_blocks, triangles
+from .blocks import EPSILON, dot, triangles
+from .slices import slices
 from .topology import Index, Mask
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def stretch(source: Surface, image: Surface) -> Stretch:
     """
     made: dict[str, Any] = {name: np.empty(source.n_faces) for name in Stretch.__dataclass_fields__}
     made["collapsed"] = np.zeros(source.n_faces, bool)
-    for block in face_blocks(source.n_faces):
+    for block in slices(source.n_faces):
         face = _largest_angle_first(source.xyz, source.faces[block])
         s, t = triangles(source.xyz, face), triangles(image.xyz, face)
         flat = s.twice_area == 0 if s.degenerate is None else s.degenerate

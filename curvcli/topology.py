@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
+from .slices import slices
+
 Index = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 
@@ -56,7 +58,9 @@ class Edges:
 
 def ends(faces: Index) -> tuple[Index, Index]:
     """Tail and head of every half-edge, (3F,) each."""
-    return faces.ravel(), faces.take([1, 2, 0], axis=1).ravel()
+    head = np.empty_like(faces)
+    head[:, :2], head[:, 2] = faces[:, 1:], faces[:, 0]
+    return faces.ravel(), head.ravel()
 
 
 def find_edges(faces: Index, vertices: int) -> Edges:
@@ -66,13 +70,21 @@ def find_edges(faces: Index, vertices: int) -> Edges:
     by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
     del by_high  # each array let go is memory that need not be touched for the first time
     high, order, rows = by_low.indices, by_low.data, by_low.indptr
-    low = np.repeat(np.arange(vertices, dtype=np.int32), np.diff(rows))
     first = np.ones(n, bool)
     np.not_equal(high[1:], high[:-1], out=first[1:])
-    first[1:] |= low[1:] != low[:-1]
-    start = np.full(int(np.count_nonzero(first)) + 1, n, np.int32)
-    start[:-1] = np.flatnonzero(first)
-    return Edges(low[start[:-1]], high[start[:-1]], np.diff(start), order, start)
+    first[rows[rows < n]] = True
+    count = int(np.count_nonzero(first))
+    low_end, high_end = np.empty(count, np.int32), np.empty(count, np.int32)
+    start = np.full(count + 1, n, np.int32)
+    done = 0
+    for block in slices(vertices):
+        begin, end = rows[block.start], rows[block.stop]
+        each = np.flatnonzero(first[begin:end])
+        new = slice(done, done + len(each))
+        low = np.repeat(np.arange(block.start, block.stop, dtype=np.int32), np.diff(rows[block.start : block.stop + 1]))
+        low_end[new], high_end[new], start[new] = low[each], high[begin:end][each], each + begin
+        done = new.stop
+    return Edges(low_end, high_end, np.diff(start), order, start)
 
 
 def _by_high(faces: Index, vertices: int) -> Any:
@@ -106,16 +118,21 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
     """
     own = np.arange(vertices, dtype=np.int32)
     parent = own.copy()
-    parent[edges.b[::-1]] = edges.a[::-1]  # edges are sorted by a: the lowest is written last
-    while not np.array_equal(further := parent[parent], parent):
-        parent = further
+    for block in slices(len(edges)):
+        np.minimum.at(parent, edges.b[block].astype(np.intp), edges.a[block])
+    for block in slices(vertices):  # pointers lead down, where all have been followed to their ends
+        while not np.array_equal(further := parent[parent[block]], parent[block]):
+            parent[block] = further
     lowest = np.flatnonzero(parent == own)
     number = own
     number[lowest] = np.arange(len(lowest), dtype=np.int32)
     piece = number[parent]
-    one, other = piece[edges.a], piece[edges.b]
-    across = np.flatnonzero(one != other)
-    count, label = label_graph(len(lowest), one[across], other[across])
+    across = [np.zeros((2, 0), np.int32)]
+    for block in slices(len(edges)):
+        one, other = piece.take(edges.a[block]), piece.take(edges.b[block])
+        apart = one != other
+        across.append(np.stack([one[apart], other[apart]]))
+    count, label = label_graph(len(lowest), *np.concatenate(across, axis=1))
     return count, label[piece]
 
 
@@ -130,51 +147,77 @@ def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
     return used, new[label]
 
 
+def _next_corner(half_edges: Index) -> Index:
+    """The next half-edge of the same face, which is also the next corner."""
+    # numpy divides several times faster than it takes remainders.
+    first = half_edges // 3 * 3
+    following: Index = half_edges + 1 - 3 * (half_edges == first + 2).astype(np.int32)
+    return following
+
+
 def neighbouring_corners(faces: Index, one: Index, other: Index) -> tuple[Index, Index]:
     """Pairs of corners at the same vertex on the two sides of each edge given by its two half-edges."""
     tail = faces.ravel()
-
-    def next_corner(h: Index) -> Index:
-        return h + np.where(h % 3 == 2, -2, 1).astype(np.int32)
-
     same_way = tail[one] == tail[other]
-    at_tail = np.where(same_way, other, next_corner(other))
-    at_head = np.where(same_way, next_corner(other), other)
-    return np.concatenate([one, next_corner(one)]), np.concatenate([at_tail, at_head])
+    at_tail = np.where(same_way, other, _next_corner(other))
+    at_head = np.where(same_way, _next_corner(other), other)
+    return np.concatenate([one, _next_corner(one)]), np.concatenate([at_tail, at_head])
 
 
-def split_stars(faces: Index, edges: Edges, twin: Index, consistent: bool, boundary_edges: Index) -> Mask:
+def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: bool, boundary_edges: Index) -> Mask:
     """(V,) vertices whose star is more than one fan of faces joined through edges with n_e = 2.
 
-    boundary_edges: (V,) number of edges with n_e = 1 at each vertex. Unreferenced vertices count as one fan.
+    corner_count, boundary_edges: (V,) number of faces, and of edges with n_e = 1, at each vertex. Unreferenced vertices
+    count as one fan.
     """
-    vertices = len(boundary_edges)
-    corners = np.bincount(faces.ravel(), minlength=vertices)
+    vertices = len(corner_count)
     split: Mask = boundary_edges > 2
     if not consistent:
         return split | _split_by_graph(faces, edges, np.arange(len(faces), dtype=np.int32), vertices)
     # With one winding, turning counterclockwise about a vertex is a partial permutation of its corners: the star is one
     # fan exactly if the walk meets every corner. It starts at the clockwise end of the fan where there is one.
-    turn = twin.reshape(-1, 3).take([2, 0, 1], axis=1).ravel()
+    turn, start = _turns(edges), np.full(vertices, -1, np.int32)
     tail = faces.ravel()
-    start = np.full(vertices, -1, np.int32)
-    start[tail] = np.arange(len(tail), dtype=np.int32)
-    open_corners = np.flatnonzero(twin < 0).astype(np.int32)
-    start[tail[open_corners]] = open_corners
+    for block in slices(len(tail)):
+        start[tail[block].astype(np.intp)] = np.arange(block.start, block.stop, dtype=np.int32)
+    last = np.flatnonzero(turn < 0)
+    clockwise_end = last - np.where(last % 3 == 0, -2, 1)
+    start[tail[clockwise_end]] = clockwise_end
+    large = np.zeros(vertices, bool)
+    for block in slices(vertices):
+        apart, longer = _walk(turn, start[block], corner_count[block])
+        split[block][apart] = True
+        large[block][longer] = True
+    if not large.any():
+        return split
+    return split | (large & _split_by_graph(faces, edges, np.flatnonzero(large[faces].any(axis=1)), vertices))
+
+
+def _turns(edges: Edges) -> Index:
+    """(3F,) the corner next to each about its vertex, across the half-edge that arrives there; -1 if there is none."""
+    turn = np.full(len(edges.order), -1, np.int32)
+    pairs = edges.pairs()
+    for block in slices(len(pairs[0])):
+        one, other = (half_edges[block] for half_edges in pairs)
+        turn[_next_corner(one).astype(np.intp)], turn[_next_corner(other).astype(np.intp)] = other, one
+    return turn
+
+
+def _walk(turn: Index, start: Index, corners: Index) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Of some vertices those where turning does not meet every corner, and those with too many corners to tell."""
+    split = np.zeros(len(start), bool)
     active = np.flatnonzero(corners > 1)
     at, begin, length = start[active], start[active], corners[active]
     for step in range(1, _WALK_LIMIT):
+        if not len(active):
+            break
         at = turn[at]
         stopped = (at < 0) | (at == begin)
         split[active[stopped]] = True
         going = (length > step + 1) & ~stopped
         if not going.all():
             active, at, begin, length = active[going], at[going], begin[going], length[going]
-        if not len(active):
-            return split
-    large = np.zeros(vertices, bool)
-    large[active] = True
-    return split | (large & _split_by_graph(faces, edges, np.flatnonzero(large[faces].any(axis=1)), vertices))
+    return np.flatnonzero(split), active
 
 
 def _split_by_graph(faces: Index, edges: Edges, chosen: NDArray[np.integer], vertices: int) -> Mask:

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON, cross, dot, face_blocks
+from .blocks import EPSILON, cross, dot
 from .census import census, classify
 from .declare import Quantity, passes
 from .groups import Groups
+from .slices import slices
 from .surface import Surface
 
 Floats = NDArray[np.float64]
@@ -82,7 +83,7 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
     """
     vertices, inside = groups.vertices, surface.interior
     products, squares, sizes = np.full((3, surface.n_vertices), np.nan)
-    for block in face_blocks(surface.n_vertices):
+    for block in slices(surface.n_vertices):
         H_vec, A_vec = columns["H_vec"][:, block], columns["A_vec"][:, block]
         each = dot(H_vec, A_vec), dot(A_vec, A_vec), np.sqrt(dot(H_vec, H_vec))
         for target, values in zip((products, squares, sizes), each, strict=True):
@@ -90,7 +91,7 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
     square = vertices.sum(squares)
     H = -vertices.sum(products) / np.where(square > np.finfo(np.float64).tiny, square, np.nan)
     residual = squares  # no longer needed
-    for block in face_blocks(surface.n_vertices):
+    for block in slices(surface.n_vertices):
         each_H = H[0] if vertices.label is None else np.append(H, np.nan)[vertices.label[block]]
         rest = columns["H_vec"][:, block] + each_H * columns["A_vec"][:, block]
         np.copyto(residual[block], np.sqrt(dot(rest, rest)), where=inside[block])
@@ -129,7 +130,7 @@ def competing_normals(surface: Surface, groups: Groups, columns: Mapping[str, An
     Both are normals of the surface at p: the one decreases its area fastest, the other increases its volume fastest.
     """
     angle = np.full(surface.n_vertices, np.nan)
-    for block in face_blocks(surface.n_vertices):
+    for block in slices(surface.n_vertices):
         H_vec, A_vec = columns["H_vec"][:, block], columns["star_vector"][:, block]
         across = cross(H_vec, A_vec)
         known = surface.interior[block] & (dot(H_vec, H_vec) > 0) & (dot(A_vec, A_vec) > 0)

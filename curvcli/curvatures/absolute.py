@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from ..blocks import EPSILON, face_blocks
+from ..blocks import EPSILON
 from ..cones import normal_cone_areas
 from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
+from ..slices import slices
 from ..surface import Surface
 from ..topology import Edges, Index
 
@@ -78,7 +79,7 @@ def locally_convex(surface: Surface, K: Column, theta: Column) -> Flags:
     cannot be told (θ null, or unsigned for want of an orientation) the answer is no.
     """
     up, down = np.zeros(surface.n_vertices), np.zeros(surface.n_vertices)
-    for block in face_blocks(len(surface.edges)):
+    for block in slices(len(surface.edges)):
         a, b, angle = surface.edges.a[block], surface.edges.b[block], theta[block]
         for total, part in ((up, np.maximum(angle, 0.0)), (down, np.maximum(-angle, 0.0))):
             np.add.at(total, a, part)
@@ -103,7 +104,7 @@ def _blocks_by_degree(chosen: NDArray[np.intp], degree: Index) -> Iterator[tuple
     chosen, size = chosen[order], size[order]
     groups, begin = np.unique(size, return_index=True)
     for common, group in zip(groups.tolist(), np.split(chosen, begin)[1:], strict=True):
-        for block in face_blocks(len(group), max(_DIRECTIONS // common, 1)):
+        for block in slices(len(group), max(_DIRECTIONS // common, 1)):
             yield group[block], common
 
 

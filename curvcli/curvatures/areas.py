@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import Floats, Triangles, dot, face_blocks, triangles
+from ..blocks import Floats, Triangles, dot, triangles
 from ..declare import Column, curvature_pass
 from ..doubledouble import THIN_COTANGENT, corner_products
+from ..slices import slices
 from ..surface import Surface
 from ..topology import Index
 from .star import null_where
@@ -28,7 +29,7 @@ def A_mixed(surface: Surface) -> Column:
     Always positive. An obtuse face's cell is cut at the midpoints of its edges. A face without area adds nothing.
     """
     area = np.zeros(surface.n_vertices)
-    for block in face_blocks(surface.n_faces):
+    for block in slices(surface.n_faces):
         face = surface.faces[block]
         for corner, part in zip(face.T, _parts(surface, face), strict=True):
             np.add.at(area, np.ascontiguousarray(corner), part)

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ..blocks import Floats, dot, face_blocks
+from ..blocks import Floats, dot
 from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
 from ..neighbourhoods import sums
 from ..settings import Scale
+from ..slices import slices
 from ..surface import Surface
 from .directions import star_tensors
 from .mean import LOST
@@ -113,7 +114,7 @@ def ring_principal_curvatures(
     used = surface.interior & np.isfinite(tensor[0])
     total = _sums(surface, scale, used, [star_area, *star_vector, *tensor])
     found = np.full((2, surface.n_vertices), np.nan)
-    for block in face_blocks(surface.n_vertices):
+    for block in slices(surface.n_vertices):
         area, vector = total[0, block], total[1:4, block]
         length = np.sqrt(dot(vector, vector))
         with np.errstate(divide="ignore", invalid="ignore"):

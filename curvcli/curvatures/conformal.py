@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import cross, dot, face_blocks
+from ..blocks import cross, dot
 from ..declare import Column, Flags, curvature_pass
+from ..slices import slices
 from ..surface import Surface
 from .edges import EDGES_PER_BLOCK
 from .star import null_where
@@ -25,7 +26,7 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
     angle = np.full(len(surface.edges), np.nan)
     inner = np.flatnonzero(surface.edges.valence == 2)
     corners = surface.faces.reshape(-1)
-    for block in face_blocks(len(inner), EDGES_PER_BLOCK):
+    for block in slices(len(inner), EDGES_PER_BLOCK):
         edges = inner[block]
         start = surface.edges.start[edges]
         sides = surface.edges.order[start], surface.edges.order[start + 1]

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array
 
-from ..blocks import EPSILON, Floats, by_corner, cross, dot, face_blocks
+from ..blocks import EPSILON, Floats, by_corner, cross, dot
 from ..declare import Column, Quantity, VectorColumn, curvature_pass
 from ..neighbourhoods import sums
 from ..settings import Scale
+from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
 from ..topology import Index
@@ -54,7 +55,7 @@ def corrected_measures(surface: Surface, scale: Scale, fitted_normal: VectorColu
     again = _divided(sums(surface, scale, corners.gather(measures)))
     del measures
     found = np.empty((7, surface.n_vertices))
-    for block in face_blocks(surface.n_vertices):
+    for block in slices(surface.n_vertices):
         known = np.isfinite(normal[:, block]).all(axis=0)
         sharp = 2 * mean[block, _MU_2:] - again[block, _MU_2:]
         found[:, block] = np.where(known, sharp.T, np.nan)
@@ -117,7 +118,7 @@ def corrected_principal_curvatures(
     def halve(block: slice) -> None:
         half[block] = half_gap(corrected_tensor[:, block], fitted_normal[:, block])
 
-    for_each(face_blocks(surface.n_vertices), halve)
+    for_each(slices(surface.n_vertices), halve)
     return 0.5 * h_corrected + half, 0.5 * h_corrected - half
 
 
@@ -158,7 +159,7 @@ def corrected_directions(
         distinct = (gap > _UMBILIC * rounding) & ~surface.without_orientation[block]
         found[:, :, block] = np.where(distinct, [line(vector) for vector in pair], np.nan)
 
-    for_each(face_blocks(surface.n_vertices), turn)
+    for_each(slices(surface.n_vertices), turn)
     return found[0], found[1]
 
 
@@ -214,7 +215,7 @@ def _measures(surface: Surface, normal: VectorColumn) -> Floats:
             rows = [np.where(unknown, 0.0, row) for row in rows]
         found[block] = np.stack(rows, axis=1) / 6
 
-    for_each(face_blocks(surface.n_faces), measure)
+    for_each(slices(surface.n_faces), measure)
     return found
 
 
@@ -246,4 +247,4 @@ def _spread(surface: Surface, density: Floats, measures: Floats) -> None:
         total[np.isnan(total[:, _MU_2])] = 0.0
         measures[block] = total
 
-    for_each(face_blocks(surface.n_faces), spread)
+    for_each(slices(surface.n_faces), spread)

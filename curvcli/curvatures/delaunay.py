@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import Floats, face_blocks
+from ..blocks import Floats
 from ..declare import Column, Flags, Quantity, curvature_pass
 from ..gluing import after
 from ..intrinsic import IntrinsicTriangulation
+from ..slices import slices
 from ..surface import Surface
 from .star import null_where
 
@@ -45,7 +46,7 @@ def circumcentric_areas(triangulation: IntrinsicTriangulation) -> Floats:
     t = triangulation
     area = np.zeros(t.n_vertices)
     with np.errstate(invalid="ignore"):  # at the corners of faces without area
-        for block in face_blocks(len(t.side)):
+        for block in slices(len(t.side)):
             side = t.side[block]
             part = t.lengths_squared(block) * t.weight[block] / 8
             if t.twofold is not None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON, Floats, dot, face_blocks
+from ..blocks import EPSILON, Floats, dot
 from ..declare import Column, Quantity, VectorColumn, curvature_pass
+from ..slices import slices
 from ..surface import Surface
 from .mean import LOST
 from .tensor import ENTRIES, line, tangential
@@ -54,7 +55,7 @@ def principal_directions(
     frames = np.full((2, 3, surface.n_vertices), np.nan)
     usable = np.sqrt(dot(A_vec, A_vec)) >= LOST * star_area
     usable &= surface.interior & (star_area > 0)
-    for block in face_blocks(surface.n_vertices):
+    for block in slices(surface.n_vertices):
         frames[:, :, block] = _tangential(tensor[:, block], size[block], A_vec[:, block])
     frames[:, :, ~usable] = np.nan
     return frames[0], frames[1]
@@ -64,7 +65,7 @@ def star_tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
     """(6, V) Σ θ_e |e| ê⊗ê over the edges at each vertex, and (V,) Σ |e|, to which its rounding is proportional."""
     a, b = surface.edges.a, surface.edges.b
     tensor, size = np.zeros((6, surface.n_vertices)), np.zeros(surface.n_vertices)
-    for block in face_blocks(len(surface.edges)):
+    for block in slices(len(surface.edges)):
         ends = a[block], b[block]
         span = [x[ends[1]] - x[ends[0]] for x in surface.xyz]
         length = np.sqrt(dot(span, span))

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON, cross, dot, face_blocks
+from ..blocks import EPSILON, cross, dot
 from ..declare import Column, Flags, VectorColumn, curvature_pass
+from ..slices import slices
 from ..surface import Surface
 from .mean import conormals
 from .star import null_where
@@ -52,7 +53,7 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
     inner = np.flatnonzero(surface.edges.valence == 2)
     face_sign = surface.orientation.face_sign
     without = None if surface.orientable else ~surface.orientation.orientable[surface.orientation.patch]
-    for block in face_blocks(len(inner), EDGES_PER_BLOCK):
+    for block in slices(len(inner), EDGES_PER_BLOCK):
         edges = inner[block]
         one, other, forward, against = _sides(surface, edges)
         nu, mu = ([x[face] for x in unit_normal] for face in (one, other))
@@ -102,7 +103,7 @@ def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
     """Mean curvature vector of the edge: minus the sum of its outward conormals, |e| long each."""
     vector = np.full((3, len(surface.edges)), np.nan)
     inner = np.flatnonzero(surface.edges.valence == 2)
-    for block in face_blocks(len(inner), EDGES_PER_BLOCK):
+    for block in slices(len(inner), EDGES_PER_BLOCK):
         edges = inner[block]
         one, other, forward, against = _sides(surface, edges)
         way, back = np.where(forward, 1.0, -1.0), np.where(against, 1.0, -1.0)

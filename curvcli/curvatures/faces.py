@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import face_blocks, triangles
+from ..blocks import triangles
 from ..declare import Column, Flags, VectorColumn, curvature_pass
+from ..slices import slices
 from ..surface import Surface
 
 
@@ -13,7 +14,7 @@ from ..surface import Surface
 def unit_normal(surface: Surface, degenerate_face: Flags) -> VectorColumn:
     """Unit normals by the file's own winding; null on degenerate faces."""
     nu = np.empty((3, surface.n_faces))
-    for block in face_blocks(surface.n_faces):
+    for block in slices(surface.n_faces):
         t = triangles(surface.xyz, surface.faces[block])
         with np.errstate(divide="ignore", invalid="ignore"):
             for row, component in zip(nu, t.normal, strict=True):

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import Floats, Triangles, cross, dot, face_blocks, triangles
+from ..blocks import Floats, Triangles, cross, dot, triangles
 from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
 from ..precision import precision
+from ..slices import slices
 from ..surface import Surface
 from ..topology import Index
 from .star import null_where
@@ -136,7 +137,7 @@ class _Sides:
 def _sides(surface: Surface) -> Iterator[_Sides]:
     """The half-edges of all edges, in blocks of edges."""
     edges, faces, signs = surface.edges, surface.faces.reshape(-1), surface.corner_sign
-    for block in face_blocks(len(edges), _EDGES):
+    for block in slices(len(edges), _EDGES):
         first, last = edges.start[block.start], edges.start[block.stop]
         half_edges = edges.order[first:last]
         face = half_edges - half_edges % 3

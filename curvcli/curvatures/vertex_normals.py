@@ -9,11 +9,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import Floats, by_corner, dot, face_blocks, triangles
+from ..blocks import Floats, by_corner, dot, triangles
 from ..declare import Flags, VectorColumn, curvature_pass
 from ..errors import InputError
 from ..neighbourhoods import Pattern, as_weights, neighbourhoods
 from ..settings import Scale, rings
+from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
 from .star import null_where
@@ -46,7 +47,7 @@ def star_normal(surface: Surface, normals: Literal["mesh", "file"]) -> VectorCol
     given = _of_file(surface) if normals == "file" else None
     total = np.zeros((3, surface.n_vertices))
     sign = surface.corner_sign
-    for block in face_blocks(surface.n_faces):
+    for block in slices(surface.n_faces):
         face = by_corner(surface.faces[block])
         t = triangles(surface.xyz, surface.faces[block])
         u, v, w = t.cosines[0] + t.cosines[1], t.cosines[1] + t.cosines[2], t.cosines[0] + t.cosines[2]
@@ -64,7 +65,7 @@ def star_normal(surface: Surface, normals: Literal["mesh", "file"]) -> VectorCol
 def _unit(vector: Floats) -> VectorColumn:
     """Vectors of unit length, null where there is none or it is no number."""
     unit: VectorColumn = np.empty_like(vector)
-    for block in face_blocks(vector.shape[1]):
+    for block in slices(vector.shape[1]):
         each = vector[:, block]
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             scaled = each / np.abs(each).max(axis=0)
@@ -202,7 +203,7 @@ class _Fit:
             if self._weight is not None:
                 found[block] *= self._weight[block, None]
 
-        for_each(face_blocks(len(found)), fill)
+        for_each(slices(len(found)), fill)
         return found
 
     def _over_pairs(
@@ -268,5 +269,5 @@ def _solved(normal: VectorColumn, square: Floats, residual: Floats, step: float)
         usable = determinant > _IN_LINE * trace * trace
         turned[:, block] = _unit(n + step * np.where(usable, change, 0.0))
 
-    for_each(face_blocks(normal.shape[1]), turn)
+    for_each(slices(normal.shape[1]), turn)
     return turned

@@ -7,7 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..blocks import cross, dot, face_blocks, triangles
+from ..blocks import cross, dot, triangles
+from ..slices import slices
 from .boundary import Boundary
 from .frames import unit
 from .polygon import Floats, Mask
@@ -93,7 +94,7 @@ class Darboux:
         at_boundary: Mask = surface.boundary
         touching = np.flatnonzero(at_boundary[surface.faces].any(axis=1))
         angle, area, vector = np.zeros(len(wanted)), np.zeros(len(wanted)), np.zeros((3, len(wanted)))
-        for block in face_blocks(len(touching)):
+        for block in slices(len(touching)):
             face = touching[block]
             t = triangles(surface.xyz, surface.faces[face])
             for k in range(3):

@@ -10,8 +10,8 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import face_blocks
 from ..declare import Quantity
+from ..slices import slices
 
 
 class ColumnStatistics(msgspec.Struct):
@@ -69,7 +69,7 @@ def statistics(
 
 def _sum(part: Callable[[slice], NDArray[np.float64]], count: int) -> float:
     """The sum of numbers that are made a block at a time."""
-    return math.fsum(float(part(block).sum()) for block in face_blocks(count))
+    return math.fsum(float(part(block).sum()) for block in slices(count))
 
 
 def _quantile(ordered: NDArray[np.float64], share: float, size: float) -> float:
