@@ -53,11 +53,13 @@ def dot(a: Vector, b: Vector) -> Floats:
 class Triangles:
     """The geometry of some faces.
 
+    corners: (3, n) their vertices, see `by_corner`.
     u, v, w: edge vectors from corner 0 to 1, 1 to 2 and 0 to 2. normal: u × w. twice_area: its length.
     cosines: for each corner the dot product of the two edges that leave it.
     degenerate: |u × w| ≤ 4 ε · (longest edge)², None where no face is.
     """
 
+    corners: NDArray[np.intp]
     u: Vector
     v: Vector
     w: Vector
@@ -89,7 +91,8 @@ def by_corner(faces: Index) -> NDArray[np.intp]:
 
 def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
     """Edge vectors, normals and dot products of the given faces, to the last digits also where they are thin."""
-    p, q, r = ([x.take(corner) for x in xyz] for corner in by_corner(faces))
+    corners = by_corner(faces)
+    p, q, r = ([x.take(corner) for x in xyz] for corner in corners)
     u, w = [b - a for a, b in zip(p, q, strict=True)], [c - a for a, c in zip(p, r, strict=True)]
     v = [c - b for b, c in zip(q, r, strict=True)]
     normal = cross(u, w)
@@ -111,7 +114,7 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
         if small.any():
             degenerate = np.zeros(len(faces), bool)
             degenerate[thin[small]] = True
-    return Triangles(u, v, w, normal, twice_area, cosines, degenerate)
+    return Triangles(corners, u, v, w, normal, twice_area, cosines, degenerate)
 
 
 def _length(vector: Vector) -> Floats:
@@ -177,25 +180,23 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     face_area = np.empty(n_faces)
     degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
     for block in slices(n_faces):
-        face = by_corner(faces[block])
         t = triangles(xyz, faces[block])
         sixth, half_perimeter = t.twice_area / 6, t.half_perimeter()
         face_area[block] = t.twice_area / 2
-        for corner, cosine in zip(face, t.cosines, strict=True):
+        for corner, cosine in zip(t.corners, t.cosines, strict=True):
             np.add.at(angle, corner, np.arctan2(t.twice_area, cosine))
             np.add.at(area, corner, sixth)
             np.add.at(half_perimeters, corner, half_perimeter)
         if t.degenerate is not None:
             degenerate[block] = t.degenerate
-            _mark_coincident(coincident, face, t)
+            _mark_coincident(coincident, t)
         at_0, at_2 = _gradient_terms(t)
         for k in range(3):
             third = t.normal[k] / 6
-            for j, corner in enumerate(face):
+            for j, corner in enumerate(t.corners):
                 np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
-            np.add.at(gradient[k], face[0], at_0[k])
-            np.add.at(gradient[k], face[1], -at_0[k] - at_2[k])
-            np.add.at(gradient[k], face[2], at_2[k])
+            for corner, term in zip(t.corners, (at_0[k], -at_0[k] - at_2[k], at_2[k]), strict=True):
+                np.add.at(gradient[k], corner, term)
     return StarSums(angle, area, vector, gradient, half_perimeters, face_area, degenerate, coincident)
 
 
@@ -222,7 +223,7 @@ def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
         t = triangles(surface.xyz, face)
         at_0, at_2 = _gradient_terms(t)
         gradients = at_0, [-x - y for x, y in zip(at_0, at_2, strict=True)], at_2
-        for k, corner in enumerate(face.T):
+        for k, corner in enumerate(t.corners):
             kept = large[corner]
             thirds = [x / 6 if sign is None else x / 6 * sign[:, k] for x in t.normal]
             rows = [np.arctan2(t.twice_area, t.cosines[k]), t.twice_area / 6, *thirds, *gradients[k]]
@@ -235,7 +236,7 @@ def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
         row[vertex[order[start]]] = np.add.reduceat(term[order], start)
 
 
-def _mark_coincident(coincident: Mask, face: NDArray[np.intp], t: Triangles) -> None:
+def _mark_coincident(coincident: Mask, t: Triangles) -> None:
     """Mark corners that lie on another corner of their face: their angle there has no meaning."""
-    for k, corner in enumerate(face):
+    for k, corner in enumerate(t.corners):
         coincident[corner[t.no_angle(k)]] = True

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import Floats, by_corner, dot, triangles
+from ..blocks import Floats, dot, triangles
 from ..declare import Flags, VectorColumn, curvature_pass
 from ..errors import InputError
 from ..neighbourhoods import Pattern, as_weights, neighbourhoods
@@ -48,7 +48,6 @@ def star_normal(surface: Surface, normals: Literal["mesh", "file"]) -> VectorCol
     total = np.zeros((3, surface.n_vertices))
     sign = surface.corner_sign
     for block in slices(surface.n_faces):
-        face = by_corner(surface.faces[block])
         t = triangles(surface.xyz, surface.faces[block])
         u, v, w = t.cosines[0] + t.cosines[1], t.cosines[1] + t.cosines[2], t.cosines[0] + t.cosines[2]
         for k, square in enumerate((u * w, u * v, v * w)):
@@ -56,7 +55,7 @@ def star_normal(surface: Surface, normals: Literal["mesh", "file"]) -> VectorCol
             if sign is not None:
                 weight *= sign[block, k]
             for row, component in zip(total, t.normal, strict=True):
-                np.add.at(row, face[k], component * weight)
+                np.add.at(row, t.corners[k], component * weight)
     if given is not None:
         return np.where(dot(given, total) < 0, -given, given)
     return _unit(total)
