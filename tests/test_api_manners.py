@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import subprocess
 import sys
+import weakref
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
@@ -192,3 +195,23 @@ def test_the_report_of_the_command_line_is_the_report_of_the_library(options: li
     given = {key.removeprefix("--"): value for key, value in zip(options[::2], options[1::2], strict=True)}
     said, own = json.loads(told.stdout), curvcli.analyze(path, "all", **given).report()  # type: ignore[arg-type]
     assert {**said, "timings": None} == {**own, "timings": None}
+
+
+@pytest.fixture
+def no_collector() -> Iterator[None]:
+    """Without the collector of circles, which comes when it likes."""
+    gc.disable()
+    yield
+    gc.enable()
+
+
+@pytest.mark.usefixtures("no_collector")
+@pytest.mark.parametrize("suffix", [".obj", ".ply", ".stl"])
+def test_a_mesh_is_let_go_with_its_last_user(suffix: str) -> None:
+    """Who reads one mesh after the other needs the memory of one: nothing holds itself."""
+    surface = curvcli.load(Path(__file__).parents[1] / f"sample_meshes/sphere{suffix}")
+    analysis = curvcli.analyze(surface, "all")
+    analysis.report()
+    gone = weakref.ref(surface), weakref.ref(analysis)
+    del surface, analysis
+    assert [reference() for reference in gone] == [None, None]

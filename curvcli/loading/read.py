@@ -126,9 +126,12 @@ def _through_trimesh(made: Future[Made], kind: str) -> Made:
 
     # A name of our own: importing curvcli changes nothing for other users of trimesh in this process.
     mesh_loaders.setdefault(_PREFIX + kind, _load)
-    scene = load_scene(_Content(made), file_type=_PREFIX + kind, process=False)
+    stream = _Content(made)
+    scene = load_scene(stream, file_type=_PREFIX + kind, process=False)
     (mesh,) = scene.geometry.values()
-    content: Made = mesh.metadata["curvcli"]
+    # The objects of trimesh refer to each other in circles, and would keep the content until somebody cuts them.
+    del stream.made
+    content: Made = mesh.metadata.pop("curvcli")
     return content
 
 
