@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 
 # `signal` itself wraps these in enumerations, whose import takes longer than all that happens before.
@@ -16,7 +17,11 @@ def main() -> None:
         signal(SIGINT, _wait)
     from .commands.main import main as run
 
-    run(_wait, _heard)
+    try:
+        run(_wait, _heard)
+    finally:
+        # Nobody need look through all that was imported for circles: the system takes everything back at once.
+        gc.freeze()
 
 
 def _wait(number: int, frame: object) -> None:

@@ -31,8 +31,3 @@ def keep_memory() -> None:
     mallopt(_M_MMAP_MAX, 0)
     mallopt(_M_TRIM_THRESHOLD, -1)
     mallopt(_M_ARENA_MAX, 1)  # the arenas of other threads give back what they let go
-
-
-def leave_memory() -> None:
-    """Leave it to the system, at the end of the process, to take back everything at once."""
-    gc.freeze()

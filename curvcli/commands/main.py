@@ -15,7 +15,7 @@ from .._version import __version__
 from ..errors import CurvcliError, UsageError
 from ..exits import INTERNAL, INTERRUPTED, OK, OUTPUT, USAGE, exit_code
 from ..memory import NUMPY, ran_out, require
-from .allocation import keep_memory, leave_memory
+from .allocation import keep_memory
 from .config import META, blamed, configure
 from .signals import Ending, Handler
 from .streams import complete, refused, settle
@@ -136,7 +136,6 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
         code = explain(error) if ending.number is None else interrupted(ending)
     ending.too_late()
     settle()
-    leave_memory()
     sys.exit(code)
 
 
