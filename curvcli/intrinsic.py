@@ -29,8 +29,8 @@ _SLACK = 1e-28
 _LOST = 2.0**-900
 # Flips at once: their temporaries stay in the second-level cache.
 _FLIPS_PER_BLOCK = 4096
-# Meshes made by people need a few flips per edge; what needs more than these, some seconds' worth, is given up.
-_MOST_FLIPS, _MOST_FLIPS_PER_EDGE = 20_000_000, 20
+# Meshes made by people need a few flips per edge; what needs more than these, ten seconds' worth, is given up.
+_MOST_FLIPS, _MOST_FLIPS_PER_EDGE = 8_000_000, 20
 # What a round costs beside its flips, in flips.
 _ROUND = 400
 
@@ -42,7 +42,7 @@ class IntrinsicTriangulation:
     edge of each side. side: (E,) one side of each edge. mates: (E,) sum of an edge's two sides, -1 where it is
     constrained: edges with n_e ≠ 2, of which each side is an edge of its own. weight: (E,) cot α + cot β.
     flips, rounds: how many. failing: (E,) edges that should still be flipped: none, unless the flips were given up.
-    most_flips: when they are, by default at twenty per edge and twenty million.
+    most_flips: when they are, by default at twenty per edge and eight million.
 
     The geometry of a face that is thin or was flipped is kept to twice the digits, so that needles of any kind keep
     theirs and no decision wavers: at each corner the dot product of the edges that leave it, and twice the area.
@@ -67,7 +67,7 @@ class IntrinsicTriangulation:
         self._flipped = np.zeros(n_edges, bool)
         self._mark = np.empty(max(n_edges, n_faces), np.int32)
         self.flips = self.rounds = 0
-        with np.errstate(invalid="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             inner = self._cotangent[glued.one] + self._cotangent[glued.other]
         self.weight = np.concatenate([inner, self._cotangent[glued.single]])
         self.failing = self.weight < -_LIMIT
@@ -83,7 +83,7 @@ class IntrinsicTriangulation:
         cotangent, thin = np.empty(corners.shape), np.empty(len(corners), bool)
         for block in slices(len(corners)):
             t = triangles(self.xyz, corners[block])
-            with np.errstate(divide="ignore", invalid="ignore"):
+            with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
                 opposite = [t.cosines[k - 1] / t.twice_area for k in range(3)]
             for k in range(3):
                 cotangent[block, k] = opposite[k]
@@ -107,7 +107,7 @@ class IntrinsicTriangulation:
             edge = edges[block]
             here, there, free = self._sides(edge)
             thin = self._thin[here // 3] | self._thin[there // 3]
-            with np.errstate(invalid="ignore"):
+            with np.errstate(over="ignore", invalid="ignore"):
                 weight = self._cotangent[here] + np.where(free, self._cotangent[there], 0.0)
             self.weight[edge] = weight
             self.failing[edge] = free & (here // 3 != there // 3) & (weight < -_LIMIT) & ~self._lost(here)
@@ -195,7 +195,7 @@ class IntrinsicTriangulation:
         """Give faces a new shape: the products at the tails of their sides in cyclic order, and twice the area."""
         face = sides[0] // 3
         self._twice_area.put(face, area)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             cotangents = [product.high / area.high for product in products]
         for k, side in enumerate(sides):
             self._products.put(side, products[k])
