@@ -104,11 +104,14 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
     degenerate, twice_area = None, np.sqrt(square)
     if len(thin):
         exact = cross_of_edges(*([x[thin] for x in corner] for corner in (p, q, r)))
-        area = _length(exact)
+        area, sides = _length(exact), [[x[thin] for x in side] for side in (u, v, w)]
+        # Where two corners coincide, rounding would leave the face an area, and the corners an angle.
+        none = np.logical_or.reduce([area < NO_AREA, *(~np.any(side, axis=0) for side in sides)])
+        area[none] = 0.0
         for component, better in zip(normal, exact, strict=True):
-            component[thin] = np.where(area < NO_AREA, 0.0, better)
-        twice_area[thin] = np.where(area < NO_AREA, 0.0, area)
-        lengths = [dot(edge, edge) for edge in ([x[thin] for x in side] for side in (u, v, w))]
+            component[thin] = np.where(none, 0.0, better)
+        twice_area[thin] = area
+        lengths = [dot(edge, edge) for edge in sides]
         longest = np.maximum(np.maximum(lengths[0], lengths[1]), lengths[2])
         small = (area <= np.maximum(4 * EPSILON * longest, NO_AREA)) | (longest < _SMALL_SQUARE)
         if small.any():
@@ -143,8 +146,9 @@ def signed_volumes(surface: Surface, label: Index) -> Floats:
     for block in slices(surface.n_faces):
         face = faces[block]
         at = base if base.shape[1] == 1 else base[:, label[block]]
-        p, q, r = ([x.take(corner) - b for x, b in zip(xyz, at, strict=True)] for corner in by_corner(face))
-        volume[block] = dot(p, cross(q, r)) / 6
+        t = triangles(xyz, face)
+        # With the normal of the face: the product of two corners would have the error of their lengths, not of areas.
+        volume[block] = dot([x.take(t.corners[0]) - b for x, b in zip(xyz, at, strict=True)], t.normal) / 6
     return volume
 
 

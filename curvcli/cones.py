@@ -85,7 +85,7 @@ def _wide_axes(unit: Floats, mean: Floats) -> tuple[Floats, Mask]:
     farthest = np.abs(x).argmin(axis=0)
     across = unit[:, farthest, np.arange(n)]
     across = across - dot(across, mean) * mean
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         across /= np.sqrt(dot(across, across))
         beside = np.array(cross(mean, across))
         y, z = dot(unit, across[:, None]), dot(unit, beside[:, None])
@@ -109,7 +109,9 @@ def _wide_axes(unit: Floats, mean: Floats) -> tuple[Floats, Mask]:
         slope = 0.5 * (lowest + highest)
         pointed &= (height + slope * y).min(axis=0) > 0
         axis: Floats = along * mean + aside * beside + slope * across
-    return axis, pointed
+        axis /= np.abs(axis).max(axis=0)
+    pointed &= np.isfinite(axis).all(axis=0)
+    return np.where(pointed, axis, 0.0), pointed
 
 
 def _diamond(x: Floats, z: Floats) -> Floats:

@@ -58,7 +58,8 @@ def radius_of(surface: Surface, scale: Scale) -> float:
     """The radius of a scale that is none of rings, in the unit of computation."""
     if scale.kind == "edges":
         return scale.size * mean_edge_length(surface)
-    return float(np.ldexp(scale.size, -surface.unit_exponent))
+    with np.errstate(over="ignore"):  # a radius that no double holds reaches everything
+        return float(np.ldexp(scale.size, -surface.unit_exponent))
 
 
 def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Pattern]]:

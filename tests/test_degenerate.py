@@ -86,6 +86,30 @@ def test_corners_in_one_place() -> None:
     assert (report["degenerate_faces"], report["duplicate_vertices"]) == (2, 1)
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_corners_in_one_place_anywhere(seed: int) -> None:
+    """Where no coordinate is round, rounding gives the face no area and its corners no angle."""
+    rng = np.random.default_rng(seed)
+    points = octahedron().points + rng.normal(size=(6, 3))
+    points[:, 0] *= 1e11
+    points[4] = points[2]
+    result = curvcli.analyze((points, octahedron().faces), "all")
+    assert nulls(result, "K") == [2, 4] == nulls(result, "K_plus")
+    assert np.flatnonzero(result.faces["area"] == 0).tolist() == [0, 1]
+    assert result.passed
+
+
+def test_the_volume_of_needles() -> None:
+    """Long products that cancel cost the volume nothing: it is known as well as the areas."""
+    faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]
+    points = [[-0.7, 0.1, -0.7], [-7e-108, -9e-109, 0.0], [0.0, -2e-159, 0.0], [1.8e-9, -6.3e-9, -4.1e-9]]
+    result = curvcli.analyze((np.array(points), faces), "core")
+    (volume,) = (check for check in result.checks if check.name == "volume")
+    assert volume.status == "pass"
+    assert volume.tolerance is not None
+    assert volume.tolerance < 1e-21
+
+
 def test_all_corners_in_one_place() -> None:
     result = curvcli.analyze(mesh([[3, 1, 2]] * 3 + [[0, 0, 0]], [[0, 1, 2], [0, 1, 3]]).surface(), "all")
     assert nulls(result, "kappa_g") == [0, 1, 2]

@@ -41,7 +41,7 @@ def _parts(surface: Surface, face: Index) -> Floats:
     t = triangles(surface.xyz, face)
     cosines = np.array(t.cosines)
     squares = np.array([dot(side, side) for side in (t.v, t.w, t.u)])
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         parts = _voronoi_parts(squares * (cosines / t.twice_area))
         thin = np.flatnonzero(~(np.abs(cosines).max(axis=0) <= THIN_COTANGENT * t.twice_area))
         if len(thin):

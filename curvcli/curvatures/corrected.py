@@ -223,9 +223,9 @@ def _divided(total: Floats) -> Floats:
     """The sums of measures, from μ₂ on as densities; null where the measure of area is not sound."""
     mu_0 = total[:, _MU_0].copy()
     unsound = ~((mu_0 > 0) & (mu_0 >= _ASTRAY * total[:, _AREA]))
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         total[:, _MU_2:] /= mu_0[:, None]
-    total[unsound] = np.nan
+    total[unsound | np.isinf(total).any(axis=1)] = np.nan
     return total
 
 

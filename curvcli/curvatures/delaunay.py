@@ -36,16 +36,18 @@ def delaunay(surface: Surface) -> tuple[Column | Flags, ...]:
     faces without area that no flip can mend, and where the flips were given up.
     """
     triangulation = IntrinsicTriangulation(surface)
-    unfinished = triangulation.unfinished_corners()
-    hidden = unfinished | triangulation.degenerate_corners() | ~surface.referenced
-    return null_where(hidden, circumcentric_areas(triangulation)), unfinished
+    hidden = triangulation.degenerate_corners() | ~surface.referenced
+    area = circumcentric_areas(triangulation)
+    # Beyond any digits, a face so thin that a cotangent is infinite cannot be told from what a flip would make of it.
+    unfinished = triangulation.unfinished_corners() | (~hidden & ~np.isfinite(area))
+    return null_where(hidden | unfinished, area), unfinished
 
 
 def circumcentric_areas(triangulation: IntrinsicTriangulation) -> Floats:
     """(V,) circumcentric dual area ⅛ Σ (cot α + cot β) |e|² over the edges at each vertex."""
     t = triangulation
     area = np.zeros(t.n_vertices)
-    with np.errstate(invalid="ignore"):  # at the corners of faces without area
+    with np.errstate(over="ignore", invalid="ignore"):  # at the corners of faces without area
         for block in slices(len(t.side)):
             side = t.side[block]
             part = t.lengths_squared(block) * t.weight[block] / 8

@@ -43,6 +43,7 @@ class Jets:
     size: Floats
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # what is not determined may come to anything
 def fit(given: Moments) -> Jets:
     """Fit all neighbourhoods; by normal equations, all vertices side by side."""
     lower, sound = _factor(given)
@@ -62,12 +63,13 @@ def fit(given: Moments) -> Jets:
     kept[_CUBIC:] = 0.0
     found = _solve(lower, kept, np.zeros((_COUNT - _CUBIC, len(determined))))
     for _ in range(_ROUNDS):
-        expected = _quartic(found) * determined
+        expected = _quartic(found)
         # What is expected of degree 4 is taken away from the heights before the groups are weighed.
         rest = terms - np.einsum("kij,kj->ij", lower[_CUBIC:_COUNT, :_COUNT], expected)
         rest[QUADRATIC:_CUBIC] *= third * _signal(rest[QUADRATIC:_CUBIC], residual, freedom)
         rest[_CUBIC:] *= fourth * _signal(rest[_CUBIC:], residual, freedom)
         found = _solve(lower, rest, expected)
+    determined &= np.isfinite(found).all(axis=0)
     found[:, ~determined] = np.nan
     hessian = found[3:6] * np.array([2.0, 1.0, 2.0])[:, None]
     spread = given.of(2, 0) + given.of(0, 2)

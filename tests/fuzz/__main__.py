@@ -23,7 +23,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis.errors import HypothesisException, HypothesisWarning
 from hypothesis.strategies import SearchStrategy
 
-from tests.fuzz.cases import Case, mutated, noise, sound
+from tests.fuzz.cases import Case, ends, mutated, noise, sound
 from tests.fuzz.contract import kept
 from tests.fuzz.corpus import FOLDER, store
 
@@ -108,7 +108,11 @@ def main() -> int:
     warnings.simplefilter("error")
     # A long case makes it complain of its own report, which would hide the finding.
     warnings.simplefilter("ignore", HypothesisWarning)
-    kinds = {kind: mutated(kind) for kind in ("obj", "ply", "stl", "strips")} | {"sound": sound(), "noise": noise()}
+    kinds = {kind: mutated(kind) for kind in ("obj", "ply", "stl", "strips")} | {
+        "sound": sound(),
+        "noise": noise(),
+        "ends": ends(),
+    }
     print(f"seed {chosen.seed}", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         search = Search(Path(folder), chosen.corpus, chosen.minutes)

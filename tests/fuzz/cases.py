@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from hypothesis import strategies as st
 
 from tests.fuzz.damage import damaged
+from tests.fuzz.shapes import extreme
 from tests.fuzz.writers import Written, obj, ply, stl, strips, whole
 from tests.loading.spelling import Meant
 
@@ -43,6 +44,9 @@ def _options(kind: str) -> st.SearchStrategy[tuple[str, ...]]:
             ("--orient", "outward"),
             ("--area", "mixed"),
             ("--area", "voronoi"),
+            ("--rings", "1"),
+            ("--radius", "0.5"),
+            ("--radius", "2e"),
             ("--mean", "average"),
             ("--max-faces", "3"),
             ("--max-bytes", "300"),
@@ -90,6 +94,18 @@ def sound(draw: st.DrawFn) -> Case:
     """A whole file under its own name."""
     written = draw(whole())
     return _called(draw, f"mesh.{written.kind}", written.data, written.kind, written.meant)
+
+
+@st.composite
+def ends(draw: st.DrawFn) -> Case:
+    """A whole file of coordinates at the ends of the range, with every quantity there is."""
+    shape = draw(extreme())
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in shape.points]
+    lines += ["f " + " ".join(str(corner + 1) for corner in polygon) for polygon in shape.polygons]
+    scale = draw(st.sampled_from([(), ("--rings", "1"), ("--rings", "3"), ("--radius", "1"), ("--radius", "2e")]))
+    options = draw(st.sampled_from([(), ("--area", "voronoi"), ("--area", "mixed"), ("--orient", "outward")]))
+    outputs = draw(st.sampled_from([(), (("-o", "out.csv"), ("-o", "out.json"), ("--table", "edges.csv"))]))
+    return Case("mesh.obj", "\n".join(lines).encode(), "analyze", ("-p", "all", *scale, *options), outputs, None)
 
 
 _BY_KIND = {"obj": obj(), "ply": ply(), "stl": stl(), "strips": strips()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from hypothesis import strategies as st
 
 from tests.loading.spelling import Meant, meant
@@ -72,6 +73,23 @@ def _heap(draw: st.DrawFn, triangles: bool) -> Meant:
     index = st.integers(0, len(points) - 1)
     polygon = st.lists(index, min_size=3, max_size=3 if triangles else 6, unique=True).map(tuple)
     return Meant(points, draw(st.lists(polygon, min_size=1, max_size=12)))
+
+
+# Powers of two in the coordinates of one mesh: of sizes that meet, of sizes that do not, and all that there are.
+_POWERS = (range(-60, 60), (-100, -53, -27, 0, 30), (-1000, -500, -300, -50, 0, 50, 300, 500, 1000), range(-1074, 1023))
+
+
+@st.composite
+def extreme(draw: st.DrawFn) -> Meant:
+    """Triangles whose coordinates share no size: needles of needles, points on points, the ends of the range."""
+    shape = draw(st.one_of(st.sampled_from(SOUND).map(_halved), _heap(True)))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    size = len(shape.points), draw(st.sampled_from((1, 3)))
+    points = np.ldexp(rng.uniform(-1, 1, (len(shape.points), 3)), rng.choice(draw(st.sampled_from(_POWERS)), size))
+    points[rng.random(points.shape) < draw(st.sampled_from((0.0, 0.2, 0.5, 0.8)))] = 0.0
+    for _ in range(draw(st.integers(0, 2))):
+        points[rng.integers(len(points))] = points[rng.integers(len(points))]
+    return Meant([(x, y, z) for x, y, z in points.tolist()], shape.polygons)
 
 
 def shapes(*, single: bool = False, triangles: bool = False) -> st.SearchStrategy[Meant]:

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.fuzz.cases import Case, mutated, noise, sound
+from tests.fuzz.cases import Case, ends, mutated, noise, sound
 from tests.fuzz.contract import Ran, arguments, in_process, kept
 from tests.fuzz.corpus import FOLDER, load
 from tests.fuzz.process import real
@@ -52,6 +52,11 @@ def test_damaged_files(tmp_path: Path, kind: str, read: int) -> None:
 def test_noise(tmp_path: Path) -> None:
     counts = held(noise(), tmp_path, 250)
     assert counts["refused"] > 150
+
+
+def test_coordinates_at_the_ends_of_the_range(tmp_path: Path) -> None:
+    counts = held(ends(), tmp_path, 120)
+    assert counts["read"] > 60
 
 
 @pytest.mark.parametrize("path", sorted(FOLDER.glob("*.case")), ids=lambda path: path.stem)
