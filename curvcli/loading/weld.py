@@ -66,25 +66,26 @@ def _lowest_equal(bits: list[NDArray[Any]]) -> NDArray[np.int32]:
     settled, the others (few) go on to the next round with another hash. Equality is always tested on the bits.
     """
     n = len(bits[0])
-    lowest = np.empty(n, np.int32)
-    index = np.arange(n, dtype=np.int32)
+    lowest = index = np.arange(n, dtype=np.int32)
     table = np.empty(1, np.int32)
     for round_ in range(32):
         columns = [row if len(index) == n else row[index] for row in bits]
         slots = max(4, len(index).bit_length())
-        slot = _hash(columns, round_) >> np.uint64(64 - slots)
+        slot = (_hash(columns, round_) >> np.uint64(64 - slots)).astype(np.intp)
         if len(table) < 1 << slots:
             table = np.empty(1 << slots, np.int32)
         table[slot[::-1]] = index[::-1]  # the last assignment wins: the lowest index
-        candidate = table[slot]
+        candidate = table.take(slot)
         equal = np.ones(len(index), np.bool_)
         for row, column in zip(bits, columns, strict=True):
             equal &= row[candidate] == column
-        if equal.all():
+        if len(index) == n:
+            lowest = candidate
+        else:
             lowest[index] = candidate
+        index = index[~equal]  # whose candidate is replaced
+        if not len(index):
             return lowest
-        lowest[index[equal]] = candidate[equal]
-        index = index[~equal]
     # Only a file made for it gets here: sort what is left.
     columns = [row[index] for row in bits]
     order = np.lexsort((index, *columns))
