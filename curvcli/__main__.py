@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import os
 
 # `signal` itself wraps these in enumerations, whose import takes longer than all that happens before.
@@ -20,6 +19,8 @@ def main() -> None:
     try:
         run(_wait, _heard)
     finally:
+        import gc
+
         # Nobody need look through all that was imported for circles: the system takes everything back at once.
         gc.freeze()
 

@@ -115,7 +115,7 @@ class _Scales:
         for name in dict.fromkeys([*a, *b]):
             self._stems.setdefault(stem(name), []).append(name)
         areas = [side["A"] for side in self._tables if "A" in side and _numeric(side["A"])]
-        self.edge = max((math.sqrt(_of(np.nanmean, area)) for area in areas), default=0.0)
+        self.edge = max((_of(np.nanmean, np.sqrt(area)) for area in areas), default=0.0)
         self.exponent = {c: q.length_exponent for q in passes.quantities("vertex") for c in q.columns}
 
     def typical(self, name: str) -> float:
@@ -124,7 +124,7 @@ class _Scales:
         columns = [column.astype(np.float64) for column in shared if _numeric(column)]
         if stem(name) == "xyz":
             return max(_of(np.nanmax, column) - _of(np.nanmin, column) for column in columns)
-        return max(_of(np.nanmedian, np.abs(column)) for column in columns)
+        return max(2 * _of(np.nanmedian, np.abs(column) / 2) for column in columns)
 
     def noise(self, name: str) -> float:
         """What rounding can make of one cell."""

@@ -145,7 +145,7 @@ def leaves(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
     yield ("loops", "count"), Leaf(len(report["loops"]))
     for index, loop in enumerate(report["loops"]):
         for name, value in loop.items():
-            size = (loop.get("length") or 0.0) ** _LOOP.get(name, 0)
+            size = power(loop.get("length") or 0.0, _LOOP.get(name, 0))
             leaf = Leaf(value, size, 256 * EPSILON * size) if name in _LOOP else Leaf(value)
             yield ("loops", str(index), name), leaf
     for piece in report["regions"]:

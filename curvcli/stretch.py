@@ -65,9 +65,12 @@ def stretch(source: Surface, image: Surface) -> Stretch:
         scale = np.where(sigma_1 > 0, sigma_1, 1.0)
         made["sigma_2"][block] = np.minimum(t.twice_area / (area * scale), sigma_1)
         made["area"][block], made["image_area"][block] = s.twice_area / 2, t.twice_area / 2
-        made["nonconformality"][block] = 0.25 * area * gap * gap
-        made["energy"][block] = 0.25 * area * (a * a + b * b + d * d)
-        made["terms"][block] = np.where(flat, 0.0, 0.5 * area * (a * a + (np.abs(b) + d + EPSILON * reach) * reach))
+        # The root of the area goes to each factor: squares alone would leave the range of doubles on small faces.
+        root = np.sqrt(area)
+        a, b, d, gap, reach = (root * x for x in (a, b, d, gap, reach))
+        made["nonconformality"][block] = 0.25 * gap * gap
+        made["energy"][block] = 0.25 * (a * a + b * b + d * d)
+        made["terms"][block] = np.where(flat, 0.0, 0.5 * (a * a + (np.abs(b) + d + EPSILON * reach) * reach))
         made["collapsed"][block] = t.twice_area == 0 if t.degenerate is None else t.degenerate
     return Stretch(**made)
 

@@ -211,3 +211,20 @@ def test_directions_are_lines_but_vectors_are_not() -> None:
     one = {f"dir_1_{axis}": np.array([0.6, 0.8]) for axis in "xyz"} | {f"H_vec_{axis}": np.ones(2) for axis in "xyz"}
     other = {name: -column for name, column in one.items()}
     assert [found.name for found in compare_cells(one, other)[0]] == ["H_vec_x", "H_vec_y", "H_vec_z"]
+
+
+@pytest.mark.parametrize("scale", [2.0**-700, 2.0**-500, 2.0**500, 2.0**700])
+@pytest.mark.parametrize("name", ["plane", "catenoid"])
+def test_meshes_at_the_ends_of_the_range_are_compared(name: str, scale: float) -> None:
+    """Powers of lengths that no double holds measure nothing, and are no reason to stop."""
+    made = get(name)(size=60)
+    here, moved = np.array(made.points) * scale, np.array(made.points) * scale
+    moved[0] += 1e-3 * scale
+    a, b = report((here, made.faces)), report((moved, made.faces))
+    assert keys(a, copy.deepcopy(a)) == []
+    assert "loops.0.length" in keys(a, b)
+    one, other = (curvcli.analyze((points, made.faces), "core").vertices for points in (here, moved))
+    columns = ("K", "A", "h", "K_density")
+    one, other = ({name: np.asarray(side[name]) for name in columns} for side in (one, other))
+    assert compare_cells(one, one)[0] == []
+    assert "K" in [column.name for column in compare_cells(one, other)[0]]

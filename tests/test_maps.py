@@ -224,3 +224,14 @@ def test_polygons_are_cut_as_in_the_source(tmp_path: Path) -> None:
     np.testing.assert_array_equal(f.image.faces, curvcli.load(one).faces)
     back = SurfaceMap(other, one)
     np.testing.assert_array_equal(back.image.faces, curvcli.load(other).faces)
+
+
+def test_faces_of_sizes_that_do_not_meet() -> None:
+    """A conformal map of faces of sizes 1e-144 and 1 to two of 1e15: the energy is the area, though σ² is no double."""
+    face, faces = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2], [3, 4, 5]]
+    beside = face + np.array([5.0, 0, 0])
+    points, image = np.concatenate([1e-144 * face, beside]), 1e15 * np.concatenate([face, beside])
+    of = SurfaceMap((points, faces), image)
+    assert of.totals["dirichlet"] == pytest.approx(1e30, rel=1e-13)
+    assert of.totals["nonconformality"] < 1
+    assert [check.status for check in of.checks] == ["pass", "pass"]
