@@ -57,7 +57,8 @@ def write_table(
         # polars words the failure of a stream in its own way; what the stream or the system raised says more.
         if relay.failure is not None:
             raise relay.failure from None
-        if number := re.search(r"\(os error (\d+)\)$", str(error)):
+        number = re.search(r"\(os error (\d+)\)$", str(error))
+        if number and os.name == "posix":  # elsewhere its numbers are not those of errno
             raise OSError(int(number[1]), os.strerror(int(number[1]))) from None
         raise
 
