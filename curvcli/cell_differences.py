@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -123,7 +124,8 @@ class _Scales:
         shared = [side[axis] for axis in self._stems[stem(name)] for side in self._tables if axis in side]
         columns = [column.astype(np.float64) for column in shared if _numeric(column)]
         if stem(name) == "xyz":
-            return max(_of(np.nanmax, column) - _of(np.nanmin, column) for column in columns)
+            extent = max(_of(np.nanmax, column) - _of(np.nanmin, column) for column in columns)
+            return min(extent, sys.float_info.max)
         return max(2 * _of(np.nanmedian, np.abs(column) / 2) for column in columns)
 
     def noise(self, name: str) -> float:

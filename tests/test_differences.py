@@ -228,3 +228,10 @@ def test_meshes_at_the_ends_of_the_range_are_compared(name: str, scale: float) -
     one, other = ({name: np.asarray(side[name]) for name in columns} for side in (one, other))
     assert compare_cells(one, one)[0] == []
     assert "K" in [column.name for column in compare_cells(one, other)[0]]
+
+
+def test_positions_at_both_ends_of_the_range_are_told_apart() -> None:
+    a, b = ({"x": np.array([-1.7e308, 0.0, end])} for end in (1.7e308, 1.6e308))
+    assert compare_cells(a, a)[0] == []
+    (found,) = compare_cells(a, b)[0]
+    assert (found.name, found.differing, found.vertex) == ("x", 1, 2)
