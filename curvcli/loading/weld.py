@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
+from ..slices import slices
 from .model import MeshFile
 
 _CROWD = 200
 """Positions near a vertex, on average, of which a tolerance is too large for the mesh."""
-_BLOCK = 16384
 # Odd multipliers whose bits are well spread, one for each coordinate and one for the end.
 _MIX = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0xD6E8FEB86659FD93)
 
@@ -108,8 +108,7 @@ def _hash(columns: list[NDArray[Any]], round_: int) -> NDArray[np.uint64]:
 def position_keys(xyz: NDArray[np.float64]) -> NDArray[np.uint64]:
     """(n,) a number for each position (3, n) that equal positions share, and others hardly ever."""
     keys = np.empty(xyz.shape[1], np.uint64)
-    for start in range(0, len(keys), _BLOCK):
-        block = slice(start, start + _BLOCK)
+    for block in slices(len(keys)):
         keys[block] = _hash([(row[block] + 0.0).view(np.uint64) for row in xyz], 0)
     return keys
 
