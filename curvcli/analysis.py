@@ -33,9 +33,6 @@ Array = NDArray[Any]
 # Checks of components and regions are listed one by one up to this many; beyond, those that fail.
 LISTED_GROUPS = 100
 
-# Beyond so many vertices, sorting the edges once more where something asks for them late costs less than their memory.
-MEMORY_COUNTS = 1 << 24
-
 # What the report's statistics and the default check need whatever is asked for.
 _ALWAYS = ("status", "degree", "star_area", "star_vector", "face_area", "degenerate_face", "K", "kappa_g")
 
@@ -247,8 +244,7 @@ def analyze(
         if value not in known:
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld, normals=normals)
-    if found.n_vertices > MEMORY_COUNTS:
-        found.let_go_of_edges()
+    found.let_go_of_edges()
     if isinstance(regions, os.PathLike):
         regions = os.fspath(regions)
     named = regions if regions is None or isinstance(regions, str) else "array"

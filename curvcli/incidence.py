@@ -8,7 +8,6 @@ import numpy as np
 
 from .arrays import frozen
 from .orientation import same_direction
-from .slices import slices
 from .topology import Edges, Index, Mask, find_edges, split_stars
 
 
@@ -27,13 +26,9 @@ class Incidence:
         return len(self.faces)
 
     @cached_property
-    @frozen
     def corner_count(self) -> Index:
         """(V,) number of faces at each vertex."""
-        count = np.zeros(self.n_vertices, np.int32)
-        for block in slices(self.n_faces):
-            np.add.at(count, self.faces[block].ravel(), np.int32(1))
-        return count
+        return self.edges.corner_count
 
     @cached_property
     @frozen

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from .slices import slices
+from .slices import ENTRIES, slices
 
 Index = NDArray[np.int32]
 Mask = NDArray[np.bool_]
@@ -28,7 +28,7 @@ class Edges:
     """The edges of a face list, sorted by (a, b).
 
     a, b: (E,) ends, a < b. valence: (E,) number of faces n_e. order: (3F,) half-edges grouped by edge.
-    start: (E + 1,) where each edge's half-edges begin in `order`.
+    start: (E + 1,) where each edge's half-edges begin in `order`. corner_count: (V,) number of faces at each vertex.
     """
 
     a: Index
@@ -36,9 +36,10 @@ class Edges:
     valence: Index
     order: Index
     start: Index
+    corner_count: Index
 
     def __post_init__(self) -> None:
-        for array in (self.a, self.b, self.valence, self.order, self.start):
+        for array in (self.a, self.b, self.valence, self.order, self.start, self.corner_count):
             array.setflags(write=False)
 
     def __len__(self) -> int:
@@ -58,9 +59,11 @@ class Edges:
 
 def ends(faces: Index) -> tuple[Index, Index]:
     """Tail and head of every half-edge, (3F,) each."""
-    head = np.empty_like(faces)
-    head[:, :2], head[:, 2] = faces[:, 1:], faces[:, 0]
-    return faces.ravel(), head.ravel()
+    tail = faces.ravel()
+    head = np.empty_like(tail)
+    head[:-1] = tail[1:]
+    head[2::3] = tail[::3]
+    return tail, head
 
 
 def find_edges(faces: Index, vertices: int) -> Edges:
@@ -68,8 +71,10 @@ def find_edges(faces: Index, vertices: int) -> Edges:
     by_high = _by_high(faces, vertices)
     n = len(by_high.data)
     by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
-    del by_high  # each array let go is memory that need not be touched for the first time
     high, order, rows = by_low.indices, by_low.data, by_low.indptr
+    # Two half-edges of each face at a vertex end there, either of them once as the higher or the lower end.
+    corner_count = (np.diff(by_high.indptr) + np.diff(rows)) // np.int32(2)
+    del by_high  # each array let go is memory that need not be touched for the first time
     first = np.ones(n, bool)
     np.not_equal(high[1:], high[:-1], out=first[1:])
     first[rows[rows < n]] = True
@@ -82,24 +87,30 @@ def find_edges(faces: Index, vertices: int) -> Edges:
         each = np.flatnonzero(first[begin:end])
         new = slice(done, done + len(each))
         low = np.repeat(np.arange(block.start, block.stop, dtype=np.int32), np.diff(rows[block.start : block.stop + 1]))
-        low_end[new], high_end[new], start[new] = low[each], high[begin:end][each], each + begin
+        low_end[new], high_end[new], start[new] = low.take(each), high[begin:end].take(each), each + begin
         done = new.stop
-    return Edges(low_end, high_end, np.diff(start), order, start)
+    return Edges(low_end, high_end, np.diff(start), order, start, corner_count)
 
 
 def _by_high(faces: Index, vertices: int) -> Any:
     """The half-edges sorted by their higher end: a sparse matrix of lower ends, a row for each half-edge."""
-    tail, head = ends(faces)
-    n = len(tail)
-    low, high = np.minimum(tail, head), np.maximum(tail, head, out=head)
+    n = 3 * len(faces)
+    low, high = np.empty(n, np.int32), np.empty(n, np.int32)
+    for block in slices(len(faces)):
+        tail, head = ends(faces[block])
+        half_edges = slice(3 * block.start, 3 * block.stop)
+        np.minimum(tail, head, out=low[half_edges])
+        np.maximum(tail, head, out=high[half_edges])
     return csr_array((low, high, np.arange(n + 1, dtype=np.int32)), shape=(n, vertices)).tocsc()
 
 
 def find_twins(edges: Edges) -> Index:
     """(3F,) the other half-edge of each edge with n_e = 2, -1 on the boundary and where more than two faces meet."""
     twin = np.full(len(edges.order), -1, np.int32)
-    one, other = edges.pairs()
-    twin[one], twin[other] = other, one
+    pairs = edges.pairs()
+    for block in slices(len(pairs[0])):
+        one, other = (np.ascontiguousarray(half_edges[block]) for half_edges in pairs)
+        twin[one.astype(np.intp)], twin[other.astype(np.intp)] = other, one
     return twin
 
 
@@ -121,8 +132,9 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
     for block in slices(len(edges)):
         np.minimum.at(parent, edges.b[block].astype(np.intp), edges.a[block])
     for block in slices(vertices):  # pointers lead down, where all have been followed to their ends
-        while not np.array_equal(further := parent[parent[block]], parent[block]):
-            parent[block] = further
+        here = parent[block]
+        while not np.array_equal(further := parent.take(here), here):
+            here[:] = further
     lowest = np.flatnonzero(parent == own)
     number = own
     number[lowest] = np.arange(len(lowest), dtype=np.int32)
@@ -168,7 +180,7 @@ def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: boo
     """(V,) vertices whose star is more than one fan of faces joined through edges with n_e = 2.
 
     corner_count, boundary_edges: (V,) number of faces, and of edges with n_e = 1, at each vertex. Unreferenced vertices
-    count as one fan.
+    count as one fan; ends of edges with n_e > 2 may be missed.
     """
     vertices = len(corner_count)
     split: Mask = boundary_edges > 2
@@ -195,11 +207,10 @@ def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: boo
 
 def _turns(edges: Edges) -> Index:
     """(3F,) the corner next to each about its vertex, across the half-edge that arrives there; -1 if there is none."""
-    turn = np.full(len(edges.order), -1, np.int32)
-    pairs = edges.pairs()
-    for block in slices(len(pairs[0])):
-        one, other = (half_edges[block] for half_edges in pairs)
-        turn[_next_corner(one).astype(np.intp)], turn[_next_corner(other).astype(np.intp)] = other, one
+    turn = find_twins(edges)
+    for block in slices(len(turn), 3 * ENTRIES):
+        twin = turn[block].copy()
+        turn[block][1:], turn[block][::3] = twin[:-1], twin[2::3]
     return turn
 
 
@@ -214,7 +225,8 @@ def _walk(turn: Index, start: Index, corners: Index) -> tuple[NDArray[np.intp], 
         at = turn[at]
         stopped = (at < 0) | (at == begin)
         split[active[stopped]] = True
-        going = (length > step + 1) & ~stopped
+        # One corner alone is no fan, unless the surface ends on both its sides: there the walk would have begun.
+        going = (length > step + 2) & ~stopped
         if not going.all():
             active, at, begin, length = active[going], at[going], begin[going], length[going]
     return np.flatnonzero(split), active

@@ -104,7 +104,7 @@ def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
 def h(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Mean curvature of the vertex without its sign; null where |A_vec| < 1e-12 A."""
     length = np.sqrt(dot(star_vector, star_vector))
-    return ratio(np.sqrt(dot(H_vec, H_vec)), length, pointed(surface, star_vector, star_area))
+    return ratio(np.sqrt(dot(H_vec, H_vec)), length, surface.interior & (length >= LOST * star_area))
 
 
 def pointed(surface: Surface, star_vector: VectorColumn, star_area: Column) -> Flags:

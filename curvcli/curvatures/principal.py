@@ -34,10 +34,12 @@ _SHARED: dict[str, Any] = {
 def principal_curvatures(h_signed: Column, K_density: Column) -> tuple[Column | Flags, ...]:
     """Principal curvatures, κ₁ ≥ κ₂; a negative radicand, where H² < 4K, is clamped at 0 and counted."""
     half = 0.5 * h_signed
-    radicand = half * half - K_density
-    clamped = radicand < 0
-    root = np.sqrt(np.maximum(radicand, 0.0))
-    return half + root, half - root, clamped
+    root = half * half
+    root -= K_density
+    clamped = root < 0
+    np.sqrt(np.maximum(root, 0.0, out=root), out=root)
+    larger = half + root
+    return larger, np.subtract(half, root, out=half), clamped
 
 
 @curvature_pass(

@@ -16,8 +16,12 @@ def null_where(mask: Flags, values: Column) -> Column:
 
 def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
     """The quotient where it may be used and the denominator is positive, NaN elsewhere."""
+    usable = usable & (denominator > 0)
+    if usable.all():  # several times faster than to ask at every one
+        whole: Column = numerator / denominator
+        return whole
     quotient = np.full(len(numerator), np.nan)
-    np.divide(numerator, denominator, where=usable & (denominator > 0), out=quotient)
+    np.divide(numerator, denominator, where=usable, out=quotient)
     return quotient
 
 
