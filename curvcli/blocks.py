@@ -76,8 +76,7 @@ class Triangles:
         """Half the sum of the lengths of the edges."""
         a, b, c = self.cosines
         # Rounding may turn the square of an edge that is short beside the others negative.
-        lengths: Floats = np.sqrt(np.abs(a + b)) + np.sqrt(np.abs(b + c)) + np.sqrt(np.abs(c + a))
-        return 0.5 * lengths
+        return np.sqrt(1.5*(a+b+c))
 
     def opposite(self, corner: int) -> Vector:
         """The edge opposite a corner, counterclockwise."""
@@ -199,8 +198,9 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
             third = t.normal[k] / 6
             for j, corner in enumerate(t.corners):
                 np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
-            for corner, term in zip(t.corners, (at_0[k], -at_0[k] - at_2[k], at_2[k]), strict=True):
-                np.add.at(gradient[k], corner, term)
+            np.add.at(gradient[k], t.corners[0], at_0[k])
+            np.subtract.at(gradient[k], t.corners[1], at_0[k] + at_2[k])
+            np.add.at(gradient[k], t.corners[2], at_2[k])
     return StarSums(angle, area, vector, gradient, half_perimeters, face_area, degenerate, coincident)
 
 

@@ -7,7 +7,7 @@ import importlib
 import io
 import os
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import replace
 from typing import Any, BinaryIO, Generic, TypeVar
 
@@ -94,8 +94,6 @@ def _read(
         digest = pool.submit(lambda: hashlib.sha256(raw).hexdigest())
         data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
         kind, notices = recognise(data, wanted)
-        if len(data) > SMALL:
-            pool.submit(_import_polars, len(data))
 
         def content() -> Made:
             mesh = _parse(data, kind, weld, max_faces, normals)
@@ -104,7 +102,11 @@ def _read(
             notes = (*notices, *mesh.notices)
             return make(replace(mesh, path=shown(path), sha256=digest.result(), weld=merged, notices=notes))
 
-        return _through_trimesh(pool.submit(content), kind)  # made while trimesh is imported
+        made = pool.submit(content)  # made while trimesh is imported
+        if len(data) > SMALL:
+            # First, since numbers are parsed outside the interpreter, which only one import at a time can have.
+            wait([pool.submit(_import_polars, len(data))])
+        return _through_trimesh(made, kind)
 
 
 def _import_polars(data: int) -> None:

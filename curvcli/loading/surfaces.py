@@ -38,7 +38,7 @@ def load(
     def surface(file: MeshFile) -> Surface:
         made = from_file(file, orient)
         if importing:
-            made.edges  # noqa: B018  (needed for almost everything, and the import of trimesh leaves the time)
+            made.let_go_of_edges()  # the topology is needed for almost everything, and the import leaves the time
         return made
 
     return read_and_make(surface, source, input_format, weld, max_faces, max_bytes, normals)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..memory import require_polars
+from ..slices import slices
 
 if TYPE_CHECKING:
     import polars as pl
@@ -80,7 +81,8 @@ def plain_lines(data: bytes) -> bytes:
     if any(byte in data for byte in (b"\t", b"\0", b"\v", b"\f")):
         data = data.translate(_BLANKS)
     data = data if data.endswith(b"\n") else data + b"\n"
-    if b"1.#" in data or b"(ind)" in data or b"(snan)" in data:
+    # A single byte is found twenty times faster than a word, and few files have these beyond their head.
+    if data.find(b"1.#", 0, data.rfind(b"#") + 1) >= 0 or (b"(" in data and (b"(ind)" in data or b"(snan)" in data)):
         data = _UNDEFINED.sub(b"nan", _INFINITE.sub(rb"\1inf", data))
     return data
 
@@ -141,13 +143,14 @@ def separates(text: NDArray[np.uint8]) -> NDArray[np.bool_]:
     return ends
 
 
+def _occurrences(text: NDArray[np.uint8], byte: int) -> int:
+    return sum(int(np.count_nonzero(text[block] == byte)) for block in slices(len(text), _BLOCK))
+
+
 def line_starts(text: NDArray[np.uint8]) -> NDArray[np.int64]:
     """Where each line begins, and at the end where the next one would."""
-    ends = np.flatnonzero(text == NEWLINE)
-    starts = np.empty(len(ends) + 1, np.int64)
-    starts[0] = 0
-    np.add(ends, 1, out=starts[1:])
-    return starts
+    blocks = slices(len(text), _BLOCK)
+    return np.concatenate([np.zeros(1, np.int64), *(np.flatnonzero(text[b] == NEWLINE) + (b.start + 1) for b in blocks)])
 
 
 def pick_lines(data: bytes, starts: NDArray[np.int64], wanted: NDArray[np.bool_]) -> bytes:
@@ -169,11 +172,11 @@ def read_columns(
     Decimal fractions are rounded correctly. dtype: np.float64 or np.int32.
     """
     text = np.frombuffer(data, np.uint8)
-    rows = np.count_nonzero(text == NEWLINE)
+    rows = _occurrences(text, NEWLINE)
     blanks = columns + skip - 1
     if (
         rows == 0
-        or np.count_nonzero(text == BLANK) != rows * blanks
+        or _occurrences(text, BLANK) != rows * blanks
         or data.count(b" ", 0, data.index(b"\n")) != blanks
     ):
         return None
