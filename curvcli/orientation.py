@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .slices import slices
+from .slices import LONG, slices
 from .topology import Edges, Index, Mask, ends, label_graph, neighbouring_corners, renumber_by_lowest_member
 
 Sign = NDArray[np.int8]
@@ -41,7 +41,7 @@ class Orientation:
 def same_direction(faces: Index, one: Index, other: Index) -> Mask:
     """Whether two half-edges of one edge run the same way, that is, whether their faces disagree."""
     tail, same = faces.ravel(), np.empty(len(one), bool)
-    for block in slices(len(one)):
+    for block in slices(len(one), LONG):
         np.equal(tail.take(one[block]), tail.take(other[block]), out=same[block])
     return same
 

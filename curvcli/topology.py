@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from .slices import ENTRIES, slices
+from .slices import LONG, slices
 
 Index = NDArray[np.int32]
 Mask = NDArray[np.bool_]
@@ -82,7 +82,7 @@ def find_edges(faces: Index, vertices: int) -> Edges:
     low_end, high_end = np.empty(count, np.int32), np.empty(count, np.int32)
     start = np.full(count + 1, n, np.int32)
     done = 0
-    for block in slices(vertices):
+    for block in slices(vertices, LONG):
         begin, end = rows[block.start], rows[block.stop]
         each = np.flatnonzero(first[begin:end])
         new = slice(done, done + len(each))
@@ -96,7 +96,7 @@ def _by_high(faces: Index, vertices: int) -> Any:
     """The half-edges sorted by their higher end: a sparse matrix of lower ends, a row for each half-edge."""
     n = 3 * len(faces)
     low, high = np.empty(n, np.int32), np.empty(n, np.int32)
-    for block in slices(len(faces)):
+    for block in slices(len(faces), LONG):
         tail, head = ends(faces[block])
         half_edges = slice(3 * block.start, 3 * block.stop)
         np.minimum(tail, head, out=low[half_edges])
@@ -108,7 +108,7 @@ def find_twins(edges: Edges) -> Index:
     """(3F,) the other half-edge of each edge with n_e = 2, -1 on the boundary and where more than two faces meet."""
     twin = np.full(len(edges.order), -1, np.int32)
     pairs = edges.pairs()
-    for block in slices(len(pairs[0])):
+    for block in slices(len(pairs[0]), LONG):
         one, other = (np.ascontiguousarray(half_edges[block]) for half_edges in pairs)
         twin[one.astype(np.intp)], twin[other.astype(np.intp)] = other, one
     return twin
@@ -129,9 +129,9 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
     """
     own = np.arange(vertices, dtype=np.int32)
     parent = own.copy()
-    for block in slices(len(edges)):
+    for block in slices(len(edges), LONG):
         np.minimum.at(parent, edges.b[block].astype(np.intp), edges.a[block])
-    for block in slices(vertices):  # pointers lead down, where all have been followed to their ends
+    for block in slices(vertices, LONG):  # pointers lead down, where all have been followed to their ends
         here = parent[block]
         while not np.array_equal(further := parent.take(here), here):
             here[:] = further
@@ -140,7 +140,7 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
     number[lowest] = np.arange(len(lowest), dtype=np.int32)
     piece = number[parent]
     across = [np.zeros((2, 0), np.int32)]
-    for block in slices(len(edges)):
+    for block in slices(len(edges), LONG):
         one, other = piece.take(edges.a[block]), piece.take(edges.b[block])
         apart = one != other
         across.append(np.stack([one[apart], other[apart]]))
@@ -190,13 +190,13 @@ def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: boo
     # fan exactly if the walk meets every corner. It starts at the clockwise end of the fan where there is one.
     turn, start = _turns(edges), np.full(vertices, -1, np.int32)
     tail = faces.ravel()
-    for block in slices(len(tail)):
+    for block in slices(len(tail), LONG):
         start[tail[block].astype(np.intp)] = np.arange(block.start, block.stop, dtype=np.int32)
     last = np.flatnonzero(turn < 0)
     clockwise_end = last - np.where(last % 3 == 0, -2, 1)
     start[tail[clockwise_end]] = clockwise_end
     large = np.zeros(vertices, bool)
-    for block in slices(vertices):
+    for block in slices(vertices, LONG):
         apart, longer = _walk(turn, start[block], corner_count[block])
         split[block][apart] = True
         large[block][longer] = True
@@ -208,7 +208,7 @@ def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: boo
 def _turns(edges: Edges) -> Index:
     """(3F,) the corner next to each about its vertex, across the half-edge that arrives there; -1 if there is none."""
     turn = find_twins(edges)
-    for block in slices(len(turn), 3 * ENTRIES):
+    for block in slices(len(turn), 3 * LONG):
         twin = turn[block].copy()
         turn[block][1:], turn[block][::3] = twin[:-1], twin[2::3]
     return turn

@@ -84,13 +84,18 @@ def _read(
     max_bytes: int | None,
     normals: str,
 ) -> Made:
-    if isinstance(source, str | bytes | os.PathLike):
-        with open_regular(source, max_bytes) as file:
-            wanted = wanted or format_of_name(path)
-            raw = read_limited(file, max_bytes)
-    else:
-        raw = read_limited(source, max_bytes)
     with ThreadPoolExecutor(3) as pool:
+        # Imported while the file is read, and before trimesh: polars parses outside the interpreter, which only one
+        # import at a time can have.
+        importing: list[Future[None]] = []
+        if isinstance(source, str | bytes | os.PathLike):
+            with open_regular(source, max_bytes) as file:
+                wanted = wanted or format_of_name(path)
+                if (size := os.fstat(file.fileno()).st_size) > SMALL:
+                    importing.append(pool.submit(_import_polars, size))
+                raw = read_limited(file, max_bytes)
+        else:
+            raw = read_limited(source, max_bytes)
         digest = pool.submit(lambda: hashlib.sha256(raw).hexdigest())
         data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
         kind, notices = recognise(data, wanted)
@@ -103,9 +108,9 @@ def _read(
             return make(replace(mesh, path=shown(path), sha256=digest.result(), weld=merged, notices=notes))
 
         made = pool.submit(content)  # made while trimesh is imported
-        if len(data) > SMALL:
-            # First, since numbers are parsed outside the interpreter, which only one import at a time can have.
-            wait([pool.submit(_import_polars, len(data))])
+        if not importing and len(data) > SMALL:
+            importing.append(pool.submit(_import_polars, len(data)))
+        wait(importing)
         return _through_trimesh(made, kind)
 
 
