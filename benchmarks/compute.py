@@ -30,6 +30,7 @@ def curvcli(points: Any, faces: Any) -> dict[str, Any]:
     from curvcli.surface import Surface
 
     surface = Surface(points, faces)
+    surface.let_go_of_edges()  # as every analysis does
     columns = evaluate(surface, CORE)
     return {**columns, "census": census(surface, surface.whole), "kinds": classify(surface, surface.whole)}
 

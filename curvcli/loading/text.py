@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 BLANK, NEWLINE = 32, 10
 _BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
 _TOKEN_PER_LINE = bytes.maketrans(b" ", b"\n")
-_BLOCK = 1 << 20
+_BLOCK = 1 << 23
 # What the C library of Microsoft writes for values that are no numbers: of old, also cut to few digits, and now.
 _INFINITE = re.compile(rb"(?<![^ \n])([+-]?)1\.#INF0*(?=[ \n])")
 _UNDEFINED = re.compile(rb"(?<![^ \n])[+-]?(?:1\.#(?:(?:IND|QNAN|SNAN)0*|J|IO|R|QO|QNB)|nan\((?:ind|snan)\))(?=[ \n])")
