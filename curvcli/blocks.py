@@ -72,11 +72,11 @@ class Triangles:
         """Faces that have no angle at a corner: it lies on another one, or the product of its edges is lost."""
         return np.maximum(np.abs(self.cosines[corner]), self.twice_area) < _SMALL_SQUARE
 
-    def half_perimeter(self) -> Floats:
-        """Half the sum of the lengths of the edges."""
+    def extent(self) -> Floats:
+        """√(¾ Σ|e|²): no less than half the perimeter, nor more than 1.23 times that, for the root of one sum."""
         a, b, c = self.cosines
-        # Rounding may turn the square of an edge that is short beside the others negative.
-        return np.sqrt(1.5*(a+b+c))
+        extent: Floats = np.sqrt(1.5 * (a + b + c))
+        return extent
 
     def opposite(self, corner: int) -> Vector:
         """The edge opposite a corner, counterclockwise."""
@@ -159,14 +159,14 @@ class StarSums:
     area: Floats
     vector: Floats
     gradient: Floats
-    half_perimeters: Floats
+    extent: Floats
     face_area: Floats
     degenerate_face: Mask
     coincident: Mask
 
 
 def star_sums(surface: Surface) -> StarSums:
-    """Angle sums, areas, vector areas, area gradients and perimeters of all stars in one blocked sweep.
+    """Angle sums, areas, vector areas, area gradients and extents of all stars in one blocked sweep.
 
     Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The gradient
     of a triangle's area with respect to a corner is half the opposite edge turned within its plane, ½ ν × d.
@@ -178,18 +178,18 @@ def star_sums(surface: Surface) -> StarSums:
 
 def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     n, n_faces = xyz.shape[1], len(faces)
-    angle, area, half_perimeters = np.zeros(n), np.zeros(n), np.zeros(n)
+    angle, area, extents = np.zeros(n), np.zeros(n), np.zeros(n)
     vector, gradient = np.zeros((3, n)), np.zeros((3, n))
     face_area = np.empty(n_faces)
     degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
     for block in slices(n_faces):
         t = triangles(xyz, faces[block])
-        sixth, half_perimeter = t.twice_area / 6, t.half_perimeter()
+        sixth, extent = t.twice_area / 6, t.extent()
         face_area[block] = t.twice_area / 2
         for corner, cosine in zip(t.corners, t.cosines, strict=True):
             np.add.at(angle, corner, np.arctan2(t.twice_area, cosine))
             np.add.at(area, corner, sixth)
-            np.add.at(half_perimeters, corner, half_perimeter)
+            np.add.at(extents, corner, extent)
         if t.degenerate is not None:
             degenerate[block] = t.degenerate
             _mark_coincident(coincident, t)
@@ -201,7 +201,7 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
             np.add.at(gradient[k], t.corners[0], at_0[k])
             np.subtract.at(gradient[k], t.corners[1], at_0[k] + at_2[k])
             np.add.at(gradient[k], t.corners[2], at_2[k])
-    return StarSums(angle, area, vector, gradient, half_perimeters, face_area, degenerate, coincident)
+    return StarSums(angle, area, vector, gradient, extents, face_area, degenerate, coincident)
 
 
 def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:

@@ -42,7 +42,7 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     yield from _not_a_manifold(surface)
     yield from _vertices_and_faces(surface, columns)
     yield from _winding(surface)
-    if "half_perimeters" in columns:
+    if "star_extent" in columns:
         yield from _coordinate_rounding(surface, columns)
     if "kappa_clamped" in columns:
         yield Notice.at(
@@ -215,11 +215,11 @@ def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterat
 
 def _edges_are_longer(columns: Mapping[str, Any], faces: NDArray[Any], length: float) -> bool:
     """Whether every edge surely is, without a look at the edges: none is shorter than twice the area of its face by the
-    longest edge of that, which is less than what half the perimeters of the faces at a vertex add up to."""
-    area, half = columns["face_area"], columns["half_perimeters"]
-    if 2 * area.min() > length * np.nanmax(half):
+    longest edge of that, which is less than what the extents of the faces at a vertex add up to."""
+    area, extent = columns["face_area"], columns["star_extent"]
+    if 2 * area.min() > length * np.nanmax(extent):
         return True
-    return bool((2 * area > length * half[faces[:, 0]]).all())
+    return bool((2 * area > length * extent[faces[:, 0]]).all())
 
 
 def _more_digits(surface: Surface) -> str:

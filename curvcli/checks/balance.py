@@ -72,14 +72,14 @@ def moments(surface: Surface, sizes: Column) -> Column:
 @check(
     gap="ΣH_p − Ση|e|",
     applies="every surface, orientable or not; not where H_vec is undefined at a corner of a degenerate face",
-    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of the extent",
     failure="H_vec of some vertex is wrong, or an edge was taken for boundary that is not.",
 )
-def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_perimeters: Column) -> Outcome:
+def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> Outcome:
     """Σ η|e| over the boundary = Σ H_p: translations change no area; needs no orientation."""
     segments, _, conormal = _boundary(surface, groups)
     value, expected = vector_sum(groups.vertices, H_vec), vector_sum(segments, conormal)
-    tolerance = rounding(surface, groups.vertices.sum(half_perimeters))
+    tolerance = rounding(surface, groups.vertices.sum(star_extent))
     outcome = Outcome(value, expected, tolerance, length_exponent=1, detail="Σ H_p against Σ η|e| over the boundary")
     exclude_null(outcome, groups, surface, np.isnan(H_vec[0]), "H_vec")
     return outcome
@@ -88,15 +88,15 @@ def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_pe
 @check(
     gap="Σp × H_p − Σm × η|e|",
     applies="as force_balance",
-    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter · distance from the base",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base",
     failure="if force_balance passes: values of H_vec stand at the wrong vertices.",
 )
-def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_perimeters: Column) -> Outcome:
+def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> Outcome:
     """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
     value = vector_sum(groups.vertices, _cross_offset(surface, H_vec))
     expected = vector_sum(segments, cross(midpoint, conormal))
-    tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
+    tolerance = rounding(surface, groups.vertices.sum(moments(surface, star_extent)))
     # Taken about the base, where rounding is least, then moved to the origin.
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p × H_p against Σ m × η|e|")
     outcome.residual = np.sqrt(((value - expected) ** 2).sum(axis=1))
@@ -110,17 +110,17 @@ def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, half_p
 @check(
     gap="Σp·H_p + 2 area − Σm·η|e|",
     applies="as force_balance",
-    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter · distance from the base",
+    bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base",
     failure="if force_balance passes: the area of a face is wrong, or values of H_vec stand at the wrong vertices.",
 )
 def position_balance(
-    surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, half_perimeters: Column
+    surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, star_extent: Column
 ) -> Outcome:
     """Σ m·η|e| over the boundary = Σ p·H_p + 2 area: scaling changes area by its square; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
     value = groups.vertices.sum(dot_offset(surface, H_vec)) + 2 * groups.faces.sum(face_area)
     expected = segments.sum(dot(midpoint, conormal))
-    tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
+    tolerance = rounding(surface, groups.vertices.sum(moments(surface, star_extent)))
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p·H_p + 2 area against Σ m·η|e|")
     outcome.residual = np.abs(value - expected)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -133,12 +133,11 @@ def position_balance(
 @check(
     gap="ΣA_p − ½Σ a × b",
     applies="orientable surfaces",
-    bound="(16 + log₂N)ε · (area + ½Σ|a||b| over the half-edges that do not cancel) + ε · Σ(Σ half "
-    "perimeters)² over the stars",
+    bound="(16 + log₂N)ε · (area + ½Σ|a||b| over the half-edges that do not cancel) + ε · Σ(Σ extents)² over the stars",
     failure="A_vec of some vertex, or the orientation of some face, is wrong.",
 )
 def vector_area(
-    surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, half_perimeters: Column
+    surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, star_extent: Column
 ) -> Outcome:
     """½ Σ a × b over the oriented half-edges that do not cancel = Σ area ν; 0 on closed surfaces."""
     left, times = surface.uncancelled, surface.uncancelled.surplus
@@ -150,7 +149,7 @@ def vector_area(
     expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)
     span = 0.5 * np.sqrt(dot(a, a)) * np.sqrt(dot(b, b)) * np.abs(times)
     # The area vector of a needle has the error of a product of its edges, to twice the digits.
-    needles = EPSILON * groups.vertices.sum(half_perimeters**2)
+    needles = EPSILON * groups.vertices.sum(star_extent**2)
     outcome = Outcome(
         value,
         expected,

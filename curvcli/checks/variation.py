@@ -17,19 +17,19 @@ from .base import Outcome, check, exclude_null, rounding
 @check(
     gap="Σp·∇_p area − 2 area",
     applies="not where area_gradient is undefined at a corner of a degenerate face",
-    bound="(16 + log₂N)ε · Σ over the corners of faces of half the perimeter · distance from the base; for the "
+    bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base; for the "
     "sum of gradients without the distance",
     failure="the gradient of area is wrong at some vertex; detail says whether its sum is not zero either.",
 )
 def area_gradient(
-    surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, half_perimeters: Column
+    surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, star_extent: Column
 ) -> Outcome:
     """Σ ∇_p area = 0 and Σ p·∇_p area = 2 area: area is invariant under translation and of degree two in scale."""
     value = groups.vertices.sum(dot_offset(surface, area_gradient))
     expected = 2 * groups.faces.sum(face_area)
-    tolerance = rounding(surface, groups.vertices.sum(moments(surface, half_perimeters)))
+    tolerance = rounding(surface, groups.vertices.sum(moments(surface, star_extent)))
     drift = np.sqrt((vector_sum(groups.vertices, area_gradient) ** 2).sum(axis=1))
-    drift_tolerance = rounding(surface, groups.vertices.sum(half_perimeters))
+    drift_tolerance = rounding(surface, groups.vertices.sum(star_extent))
 
     shown = [surface.in_file_unit(side, 1) for side in (drift, drift_tolerance)]
 
@@ -50,18 +50,16 @@ def area_gradient(
 @check(
     gap="Σp·A_p − 3 vol",
     applies="closed orientable surfaces whose oriented faces cancel at every edge",
-    bound="(16 + log₂N)ε · Σ (area of the star + ε · (Σ half perimeters)²) · distance from the base, over the stars",
+    bound="(16 + log₂N)ε · Σ (area of the star + ε · (Σ extents)²) · distance from the base, over the stars",
     failure="A_vec of some vertex or the volume is wrong.",
 )
-def volume(
-    surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Column, half_perimeters: Column
-) -> Outcome:
+def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Column, star_extent: Column) -> Outcome:
     """Σ p·A_p = 3 vol on closed orientable surfaces."""
     counts = census(surface, groups)
     value = groups.vertices.sum(dot_offset(surface, A_vec))
     expected = 3 * volumes(surface, groups)
     # The area vector of a needle has the error of a product of its edges, to twice the digits.
-    sizes = 3 * star_area + EPSILON * half_perimeters**2
+    sizes = 3 * star_area + EPSILON * star_extent**2
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, sizes)))
     outcome = Outcome(value, expected, tolerance, length_exponent=3, detail="Σ p·A_p against three times the volume")
     outcome.exclude(~counts.closed, "the surface is not closed")

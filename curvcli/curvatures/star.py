@@ -31,7 +31,7 @@ def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
         Quantity("star_area", public=False, length_exponent=2),
         Quantity("star_vector", public=False, vector=True, length_exponent=2, parity="odd"),
         Quantity("star_gradient", public=False, vector=True, length_exponent=1),
-        Quantity("half_perimeters", public=False, length_exponent=1),
+        Quantity("star_extent", public=False, length_exponent=1),
         Quantity(
             "face_area", on="face", public=False, length_exponent=2, total="area", description="Area of the face."
         ),
@@ -41,7 +41,7 @@ def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
     )
 )
 def star_sums(surface: Surface) -> tuple[Column | Flags, ...]:
-    """Σθ, ⅓Σ area, ⅓Σ area ν with the star oriented, ∇_p area, Σ half perimeters; face areas; where undefined."""
+    """Σθ, ⅓Σ area, ⅓Σ area ν with the star oriented, ∇_p area, Σ extents; face areas; where undefined."""
     sums = sweep(surface)
     degenerate = np.zeros(surface.n_vertices, bool)
     degenerate[surface.faces[sums.degenerate_face].ravel()] = True
@@ -50,7 +50,7 @@ def star_sums(surface: Surface) -> tuple[Column | Flags, ...]:
         sums.area,
         sums.vector,
         sums.gradient,
-        sums.half_perimeters,
+        sums.extent,
         sums.face_area,
         sums.degenerate_face,
         sums.coincident,

@@ -149,8 +149,8 @@ def _occurrences(text: NDArray[np.uint8], byte: int) -> int:
 
 def line_starts(text: NDArray[np.uint8]) -> NDArray[np.int64]:
     """Where each line begins, and at the end where the next one would."""
-    blocks = slices(len(text), _BLOCK)
-    return np.concatenate([np.zeros(1, np.int64), *(np.flatnonzero(text[b] == NEWLINE) + (b.start + 1) for b in blocks)])
+    ends = (np.flatnonzero(text[block] == NEWLINE) + block.start for block in slices(len(text), _BLOCK))
+    return np.concatenate([np.zeros(1, np.int64), *(end + 1 for end in ends)])
 
 
 def pick_lines(data: bytes, starts: NDArray[np.int64], wanted: NDArray[np.bool_]) -> bytes:
@@ -174,11 +174,7 @@ def read_columns(
     text = np.frombuffer(data, np.uint8)
     rows = _occurrences(text, NEWLINE)
     blanks = columns + skip - 1
-    if (
-        rows == 0
-        or _occurrences(text, BLANK) != rows * blanks
-        or data.count(b" ", 0, data.index(b"\n")) != blanks
-    ):
+    if rows == 0 or _occurrences(text, BLANK) != rows * blanks or data.count(b" ", 0, data.index(b"\n")) != blanks:
         return None
     if len(data) <= SMALL:
         numbers, known = read_tokens(data, dtype)
