@@ -13,10 +13,11 @@ from ..cones import normal_cone_areas
 from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
+from ..threads import for_each
 from ..topology import Edges, Index
 
-# Directions per block; temporaries stay in the second-level cache.
-_DIRECTIONS = 16384
+# Directions per block: so many that two threads rarely wait for each other at the interpreter.
+_DIRECTIONS = 65536
 # Degrees up to this have a group of their own; larger ones are rounded up, the last direction repeated.
 _EXACT_DEGREE = 24
 
@@ -62,11 +63,15 @@ def absolute_curvature(surface: Surface, K: Column, theta: Column, star_vector: 
     plus = np.where(surface.interior, np.maximum(K, 0.0), np.nan)
     chosen = np.flatnonzero(surface.interior & ~np.isnan(K) & ~locally_convex(surface, K, theta))
     neighbours, first = _neighbours(surface.edges, surface.n_vertices)
-    for vertices, degree in _blocks_by_degree(chosen, surface.degree):
+
+    def hull(block: tuple[NDArray[np.intp], int]) -> None:
+        vertices, degree = block
         place = np.minimum(np.arange(degree)[:, None], surface.degree[vertices] - 1) + first[vertices]
         around = neighbours[place]
         directions = np.array([x[around] - x[vertices] for x in surface.xyz])
         plus[vertices] = np.maximum(plus[vertices], normal_cone_areas(directions, star_vector[:, vertices]))
+
+    for_each(_blocks_by_degree(chosen, surface.degree), hull)
     minus = np.maximum(plus - K, 0.0)
     return plus, minus, plus + minus
 

@@ -8,6 +8,7 @@ from ..blocks import cross, dot
 from ..declare import Column, Flags, curvature_pass
 from ..slices import slices
 from ..surface import Surface
+from ..threads import for_each
 from .edges import EDGES_PER_BLOCK
 from .star import null_where
 
@@ -26,7 +27,8 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
     angle = np.full(len(surface.edges), np.nan)
     inner = np.flatnonzero(surface.edges.valence == 2)
     corners = surface.faces.reshape(-1)
-    for block in slices(len(inner), EDGES_PER_BLOCK):
+
+    def meet(block: slice) -> None:
         edges = inner[block]
         start = surface.edges.start[edges]
         sides = surface.edges.order[start], surface.edges.order[start + 1]
@@ -41,6 +43,8 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
         found = np.arctan2(np.sqrt(dot(imaginary, imaginary)), dot(p, q) - s * t)
         lost = degenerate_face[sides[0] // 3] | degenerate_face[sides[1] // 3]
         angle[edges] = np.where(lost, np.nan, found)
+
+    for_each(slices(len(inner), EDGES_PER_BLOCK), meet)
     return angle
 
 

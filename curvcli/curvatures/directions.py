@@ -8,6 +8,7 @@ from ..blocks import EPSILON, Floats, dot
 from ..declare import Column, Quantity, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
+from ..threads import for_each
 from .mean import LOST
 from .tensor import ENTRIES, line, tangential
 
@@ -55,8 +56,11 @@ def principal_directions(
     frames = np.full((2, 3, surface.n_vertices), np.nan)
     usable = np.sqrt(dot(A_vec, A_vec)) >= LOST * star_area
     usable &= surface.interior & (star_area > 0)
-    for block in slices(surface.n_vertices):
+
+    def turned(block: slice) -> None:
         frames[:, :, block] = _tangential(tensor[:, block], size[block], A_vec[:, block])
+
+    for_each(slices(surface.n_vertices), turned)
     frames[:, :, ~usable] = np.nan
     return frames[0], frames[1]
 

@@ -11,10 +11,12 @@ from ..blocks import EPSILON, cross, dot
 from ..declare import Column, Flags, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
+from ..threads import for_each
 from .mean import conormals
 from .star import null_where
 
-EDGES_PER_BLOCK = 16384
+# So many that two threads rarely wait for each other at the interpreter.
+EDGES_PER_BLOCK = 32768
 
 # Rounding of the sine between two unit normals.
 FOLD = 8 * EPSILON
@@ -53,7 +55,8 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
     inner = np.flatnonzero(surface.edges.valence == 2)
     face_sign = surface.orientation.face_sign
     without = None if surface.orientable else ~surface.orientation.orientable[surface.orientation.patch]
-    for block in slices(len(inner), EDGES_PER_BLOCK):
+
+    def turn_of(block: slice) -> None:
         edges = inner[block]
         one, other, forward, against = _sides(surface, edges)
         nu, mu = ([x[face] for x in unit_normal] for face in (one, other))
@@ -68,6 +71,8 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
         # Two faces that lie on each other turn by π; the sign of a sine that is all rounding means nothing.
         found = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
         angle[edges] = found if without is None else np.where(without[one], np.abs(found), found)
+
+    for_each(slices(len(inner), EDGES_PER_BLOCK), turn_of)
     return angle
 
 
@@ -103,13 +108,16 @@ def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
     """Mean curvature vector of the edge: minus the sum of its outward conormals, |e| long each."""
     vector = np.full((3, len(surface.edges)), np.nan)
     inner = np.flatnonzero(surface.edges.valence == 2)
-    for block in slices(len(inner), EDGES_PER_BLOCK):
+
+    def bend(block: slice) -> None:
         edges = inner[block]
         one, other, forward, against = _sides(surface, edges)
         way, back = np.where(forward, 1.0, -1.0), np.where(against, 1.0, -1.0)
         span = [x[surface.edges.b[edges]] - x[surface.edges.a[edges]] for x in surface.xyz]
         between = [way * nu[one] + back * nu[other] for nu in unit_normal]
         vector[:, edges] = cross(between, span)
+
+    for_each(slices(len(inner), EDGES_PER_BLOCK), bend)
     many = surface.nonmanifold_edges
     if many.any():
         half_edges = surface.edges.order[np.repeat(many, surface.edges.valence)]
