@@ -54,6 +54,7 @@ def preset(name: str, path: str) -> None:
     for points, faces in ((small.points, small.faces), given):
         begin = time.perf_counter()
         surface = Surface(points, faces)
+        surface.let_go_of_edges()  # as every analysis does
         found = evaluate(surface, resolve([name]))
         census(surface, surface.whole), classify(surface, surface.whole)
         elapsed = time.perf_counter() - begin
