@@ -1,0 +1,40 @@
+"""Work that is divided among threads gives what one thread gives, to the last bit."""
+
+from __future__ import annotations
+
+import pytest
+
+import curvcli
+from curvcli.threads import for_each
+from tests import meshes
+
+NAMES = ("K_plus", "K_abs", "theta", "edge_H_vec", "beta", "willmore_conformal", "dir_1", "dir_2")
+
+
+def test_threads_and_blocks_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    given = meshes.torus()
+
+    def found(threads: str, directions: int, edges: int) -> list[bytes]:
+        monkeypatch.setenv("OMP_NUM_THREADS", threads)
+        monkeypatch.setattr("curvcli.curvatures.absolute._DIRECTIONS", directions)
+        for module in ("edges", "conformal"):
+            monkeypatch.setattr(f"curvcli.curvatures.{module}.EDGES_PER_BLOCK", edges)
+        analysis = curvcli.analyze(given.surface(), NAMES)
+        return [analysis.column(name).tobytes() for name in NAMES]
+
+    whole = found("1", 1 << 16, 1 << 15)
+    for threads, directions, edges in (("2", 1 << 16, 1 << 15), ("1", 128, 50), ("2", 128, 50)):
+        assert found(threads, directions, edges) == whole
+
+
+@pytest.mark.parametrize("threads", ["1", "2"])
+@pytest.mark.parametrize("failing", [0, 1, 99])
+def test_a_failure_in_a_thread_is_raised(threads: str, failing: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", threads)
+
+    def work(piece: int) -> None:
+        if piece == failing:
+            raise MemoryError
+
+    with pytest.raises(MemoryError):
+        for_each(range(100), work)
