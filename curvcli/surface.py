@@ -155,7 +155,7 @@ class Surface(Incidence):
         """(3, V) coordinates in the unit of computation, one contiguous row per coordinate."""
         if not self.unit_exponent:
             return self.xyz_given
-        with np.errstate(over="ignore"):  # only of vertices that no face uses
+        with np.errstate(over="ignore", invalid="ignore"):  # only of vertices that no face uses; NaNs may signal
             return np.ldexp(self.xyz_given, -self.unit_exponent)
 
     @cached_property
