@@ -38,8 +38,8 @@ def glue(surface: Surface) -> Gluing:
     What is intrinsic lifts to the cover and is counted twice there, so no rule for one-sided patches is needed.
     """
     edges, faces = surface.edges, surface.faces
-    one, other = edges.pairs()
-    single = edges.order[np.repeat(edges.valence != 2, edges.valence)]
+    one, other = edges.pairs
+    single = edges.half_edges(np.flatnonzero(edges.valence != 2))
     orientation = surface.orientation
     if orientation.face_sign is None and surface.orientable:
         return Gluing(faces.flatten(), one, other, single, None)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .slices import LONG, slices
-from .topology import Edges, Index, Mask, ends, label_graph, neighbouring_corners, renumber_by_lowest_member
+from .topology import Edges, Index, Mask, ends_of, label_graph, neighbouring_corners, renumber_by_lowest_member
 
 Sign = NDArray[np.int8]
 
@@ -48,7 +48,7 @@ def same_direction(faces: Index, one: Index, other: Index) -> Mask:
 
 def orient(faces: Index, edges: Edges) -> Orientation:
     """Propagate the winding of each patch's lowest face; a patch is orientable if its double cover falls in two."""
-    one, other = edges.pairs()
+    one, other = edges.pairs
     disagree = same_direction(faces, one, other)
     one, other = one // 3, other // 3
     n = len(faces)
@@ -72,7 +72,7 @@ def orient_stars(faces: Index, edges: Edges) -> Sign:
     Möbius strips have no global normal, but every star that is one fan has a local one; what is even in the normal is
     defined by it.
     """
-    one, other = edges.pairs()
+    one, other = edges.pairs
     disagree = np.tile(same_direction(faces, one, other), 2)
     corner, neighbour = neighbouring_corners(faces, one, other)
     n = 3 * len(faces)
@@ -86,8 +86,8 @@ def orient_stars(faces: Index, edges: Edges) -> Sign:
 
 def _ways(faces: Index, half_edges: Index, orientation: Orientation) -> Sign:
     """+1 where the oriented face runs along its half-edge from the lower end to the higher, else -1."""
-    tail, head = ends(faces)
-    way = np.where(tail[half_edges] < head[half_edges], 1, -1).astype(np.int8)
+    tail, head = ends_of(faces, half_edges)
+    way = np.where(tail < head, 1, -1).astype(np.int8)
     if orientation.face_sign is not None:
         way *= np.repeat(orientation.face_sign, 3)[half_edges]
     return way
@@ -116,9 +116,8 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
         edge = np.flatnonzero(edges.valence != 2)
     if not len(edge):
         return Uncancelled(edge, edges.a[edge], edges.b[edge], np.zeros(0, np.int32))
-    valence = edges.valence[edge]
-    half_edges = edges.order if len(edge) == len(edges) else edges.order[np.repeat(edges.valence != 2, edges.valence)]
-    way = _ways(faces, half_edges, orientation)
+    half_edges = edges.order if len(edge) == len(edges) else edges.half_edges(edge)
+    valence, way = edges.valence[edge], _ways(faces, half_edges, orientation)
     surplus = np.add.reduceat(way, np.cumsum(valence) - valence, dtype=np.int32)
     left = np.flatnonzero(surplus)
     edge = edge[left]
@@ -128,10 +127,9 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
 def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask:
     """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
     closed = np.ones(len(orientation.orientable), bool)
-    odd = edges.valence != 2
-    if odd.any():
-        half_edges = edges.order[np.repeat(odd, edges.valence)]
-        edge = np.repeat(np.flatnonzero(odd), edges.valence[odd])
+    odd = np.flatnonzero(edges.valence != 2)
+    if len(odd):
+        half_edges, edge = edges.half_edges(odd), np.repeat(odd, edges.valence[odd])
         key = edge * len(closed) + orientation.patch[half_edges // 3].astype(np.int64)
         key, where, count = np.unique(key, return_inverse=True, return_counts=True)
         unbalanced = (count != 2) | (np.bincount(where, _ways(faces, half_edges, orientation)) != 0)

@@ -28,7 +28,7 @@ from .plurals import counted
 from .topology import (
     Index,
     Mask,
-    ends,
+    ends_of,
     label_graph,
     renumber_by_lowest_member,
     vertex_components,
@@ -134,8 +134,9 @@ class Surface(Incidence):
 
         0 unless the mesh is so large or small that squares of areas would leave the range of doubles.
         """
-        used = self.xyz_given[:, self.referenced] if not self.referenced.all() else self.xyz_given
-        extent = float((used.max(axis=1) / 2 - used.min(axis=1) / 2).max())
+        every = self.referenced.all()
+        used = (x if every else x[self.referenced] for x in self.xyz_given)
+        extent = float(max(x.max() / 2 - x.min() / 2 for x in used))
         exponent = math.frexp(extent)[1] + 1
         return 0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else exponent
 
@@ -268,7 +269,7 @@ class Surface(Incidence):
     def boundary_loop_of(self) -> tuple[int, Index]:
         """Number of boundary curves and the curve of each boundary half-edge, joined at shared vertices."""
         half_edges = self.boundary_half_edges
-        tail, head = (end[half_edges] for end in ends(self.faces))
+        tail, head = ends_of(self.faces, half_edges)
         at, where = np.unique(np.concatenate([tail, head]), return_inverse=True)
         count, label = label_graph(len(at), where[: len(tail)], where[len(tail) :])
         return renumber_by_lowest_member(label[where[: len(tail)]], count) if len(at) else (0, half_edges)

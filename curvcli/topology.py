@@ -7,6 +7,7 @@ Everything is counting and gathering over whole arrays, linear in the mesh.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,9 @@ from .slices import LONG, slices
 
 Index = NDArray[np.int32]
 Mask = NDArray[np.bool_]
+
+# Of so many edges one is looked at first: nearly always it and its like join what can be joined.
+_SAMPLE = 8
 
 # Stars are walked corner by corner up to this many faces; the rare larger ones go through the corner graph.
 _WALK_LIMIT = 64
@@ -45,16 +49,23 @@ class Edges:
     def __len__(self) -> int:
         return len(self.a)
 
-    def half_edges(self, edges: Mask | Index) -> Index:
-        """The first half-edge of each of the given edges (the only one on the boundary)."""
-        return self.order[self.start[:-1][edges]]
-
+    @cached_property
     def pairs(self) -> tuple[Index, Index]:
         """The two half-edges of every edge with n_e = 2."""
-        if (self.valence == 2).all():
+        if len(self.order) == 2 * len(self) and (self.valence == 2).all():
             return self.order[::2], self.order[1::2]
-        begin = self.start[:-1][self.valence == 2]
-        return self.order[begin], self.order[begin + 1]
+        inner = np.flatnonzero(self.valence == 2)
+        one, other = np.empty(len(inner), np.int32), np.empty(len(inner), np.int32)
+        for block in slices(len(inner), LONG):
+            begin = self.start.take(inner[block])
+            one[block], other[block] = self.order.take(begin), self.order.take(begin + 1)
+        return one, other
+
+    def half_edges(self, edges: NDArray[np.integer]) -> Index:
+        """All half-edges of the given edges, one edge after the other."""
+        valence = self.valence[edges]
+        before = np.cumsum(valence) - valence
+        return self.order[np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())]
 
 
 def ends(faces: Index) -> tuple[Index, Index]:
@@ -64,6 +75,12 @@ def ends(faces: Index) -> tuple[Index, Index]:
     head[:-1] = tail[1:]
     head[2::3] = tail[::3]
     return tail, head
+
+
+def ends_of(faces: Index, half_edges: NDArray[np.integer]) -> tuple[Index, Index]:
+    """Tail and head of the given half-edges."""
+    corners = faces.ravel()
+    return corners[half_edges], corners[_next_corner(half_edges)]
 
 
 def find_edges(faces: Index, vertices: int) -> Edges:
@@ -111,7 +128,7 @@ def _by_high(faces: Index, vertices: int) -> Any:
 def find_twins(edges: Edges) -> Index:
     """(3F,) the other half-edge of each edge with n_e = 2, -1 on the boundary and where more than two faces meet."""
     twin = np.full(len(edges.order), -1, np.int32)
-    pairs = edges.pairs()
+    pairs = edges.pairs
     for block in slices(len(pairs[0]), LONG):
         one, other = (np.ascontiguousarray(half_edges[block]) for half_edges in pairs)
         twin[one.astype(np.intp)], twin[other.astype(np.intp)] = other, one
@@ -129,7 +146,7 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
     """Pieces connected by shared vertices; an unreferenced vertex is a piece of its own here.
 
     Every vertex points to its lowest neighbour if that is lower, and pointers are followed to their ends; the few
-    vertices without a lower neighbour are left to be joined.
+    vertices without a lower neighbour are left to be joined, by some of the edges and then by what is left to do.
     """
     own = np.arange(vertices, dtype=np.int32)
     parent = own.copy()
@@ -140,16 +157,20 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
         while not np.array_equal(further := parent.take(here), here):
             here[:] = further
     lowest = np.flatnonzero(parent == own)
-    number = own
-    number[lowest] = np.arange(len(lowest), dtype=np.int32)
-    piece = number[parent]
-    across = [np.zeros((2, 0), np.int32)]
-    for block in slices(len(edges), LONG):
-        one, other = piece.take(edges.a[block]), piece.take(edges.b[block])
-        apart = one != other
-        across.append(np.stack([one[apart], other[apart]]))
-    count, label = label_graph(len(lowest), *np.concatenate(across, axis=1))
-    return count, label[piece]
+    count, number = len(lowest), own
+    number[lowest] = np.arange(count, dtype=np.int32)
+    piece = number.take(parent)
+    for step in (_SAMPLE, 1):
+        across = [np.zeros((2, 0), np.int32)]
+        for block in slices(len(edges), LONG * step):
+            one, other = (piece.take(end[block][::step]) for end in (edges.a, edges.b))
+            apart = np.flatnonzero(one != other)
+            across.append(np.stack([one.take(apart), other.take(apart)]))
+        count, label = label_graph(count, *np.concatenate(across, axis=1))
+        piece = label.take(piece)
+        if count == 1:
+            break
+    return count, piece
 
 
 def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
@@ -163,11 +184,11 @@ def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
     return used, new[label]
 
 
-def _next_corner(half_edges: Index) -> Index:
+def _next_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
     """The next half-edge of the same face, which is also the next corner."""
     # numpy divides several times faster than it takes remainders.
     first = half_edges // 3 * 3
-    following: Index = half_edges + 1 - 3 * (half_edges == first + 2).astype(np.int32)
+    following: NDArray[np.integer] = half_edges + 1 - 3 * (half_edges == first + 2).astype(half_edges.dtype)
     return following
 
 
@@ -238,7 +259,7 @@ def _walk(turn: Index, start: Index, corners: Index) -> tuple[NDArray[np.intp], 
 
 def _split_by_graph(faces: Index, edges: Edges, chosen: NDArray[np.integer], vertices: int) -> Mask:
     """The same by connected components of corners, for any winding; right at vertices all of whose faces are chosen."""
-    one, other = edges.pairs()
+    one, other = edges.pairs
     if len(chosen) < len(faces):
         inside = np.zeros(len(faces), bool)
         inside[chosen] = True

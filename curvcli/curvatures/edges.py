@@ -120,7 +120,7 @@ def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
     for_each(slices(len(inner), EDGES_PER_BLOCK), bend)
     many = surface.nonmanifold_edges
     if many.any():
-        half_edges = surface.edges.order[np.repeat(many, surface.edges.valence)]
+        half_edges = surface.edges.half_edges(np.flatnonzero(many))
         each = np.where(np.isnan(unit_normal[0, half_edges // 3]), np.nan, conormals(surface, half_edges))
         starts = np.cumsum(surface.edges.valence[many]) - surface.edges.valence[many]
         vector[:, many] = -np.add.reduceat(each, starts, axis=1)

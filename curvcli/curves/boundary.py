@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from ..surface import Surface
-from ..topology import ends, label_graph, neighbouring_corners
+from ..topology import ends_of, label_graph, neighbouring_corners
 from .polygon import Curves, Mask, Rows
 
 
@@ -68,9 +68,8 @@ class Fans:
         if not self.irregular.any():
             return
         faces = surface.faces
-        one, other = surface.edges.pairs()
-        tail, head = ends(faces)
-        near = self.irregular[tail[one]] | self.irregular[head[one]]
+        one, other = surface.edges.pairs
+        near = np.logical_or(*(self.irregular[end] for end in ends_of(faces, one)))
         corner, neighbour = neighbouring_corners(faces, one[near], other[near])
         self._corners = np.flatnonzero(self.irregular[faces.ravel()])
         inside = self.irregular[faces.ravel()[corner]]
@@ -115,7 +114,7 @@ def boundary_loops(surface: Surface) -> Boundary:
 
 def _ends(surface: Surface, half_edge: Rows, forward: Mask) -> tuple[Rows, Rows]:
     """First and second end of each half-edge in the direction it is run along."""
-    tail, head = (end[half_edge].astype(np.int64) for end in ends(surface.faces))
+    tail, head = (end.astype(np.int64) for end in ends_of(surface.faces, half_edge))
     return np.where(forward, tail, head), np.where(forward, head, tail)
 
 
