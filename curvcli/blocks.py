@@ -55,7 +55,7 @@ class Triangles:
 
     corners: (3, n) their vertices, see `by_corner`.
     u, v, w: edge vectors from corner 0 to 1, 1 to 2 and 0 to 2. normal: u × w. twice_area: its length.
-    cosines: for each corner the dot product of the two edges that leave it.
+    cosines: for each corner the dot product of the two edges that leave it. half_squares: their sum, ½ Σ|e|².
     degenerate: |u × w| ≤ 4 ε · (longest edge)², None where no face is.
     """
 
@@ -66,6 +66,7 @@ class Triangles:
     normal: Vector
     twice_area: Floats
     cosines: tuple[Floats, Floats, Floats]
+    half_squares: Floats
     degenerate: Mask | None
 
     def no_angle(self, corner: int) -> Mask:
@@ -74,8 +75,7 @@ class Triangles:
 
     def extent(self) -> Floats:
         """√(¾ Σ|e|²): no less than half the perimeter, nor more than 1.23 times that, for the root of one sum."""
-        a, b, c = self.cosines
-        extent: Floats = np.sqrt(1.5 * (a + b + c))
+        extent: Floats = np.sqrt(1.5 * self.half_squares)
         return extent
 
     def opposite(self, corner: int) -> Vector:
@@ -98,7 +98,8 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
     square = dot(normal, normal)
     cosines = dot(u, w), -dot(u, v), dot(w, v)
     # |u|² = cos₀ + cos₁ and so on: the longest is the sum without the smallest.
-    longest = cosines[0] + cosines[1] + cosines[2] - np.minimum(np.minimum(cosines[0], cosines[1]), cosines[2])
+    half_squares = cosines[0] + cosines[1] + cosines[2]
+    longest = half_squares - np.minimum(np.minimum(cosines[0], cosines[1]), cosines[2])
     thin = np.flatnonzero(square <= (_THIN * longest) ** 2 + _SMALL_SQUARE)
     degenerate, twice_area = None, np.sqrt(square)
     if len(thin):
@@ -116,7 +117,7 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
         if small.any():
             degenerate = np.zeros(len(faces), bool)
             degenerate[thin[small]] = True
-    return Triangles(corners, u, v, w, normal, twice_area, cosines, degenerate)
+    return Triangles(corners, u, v, w, normal, twice_area, cosines, half_squares, degenerate)
 
 
 def _length(vector: Vector) -> Floats:
@@ -206,7 +207,10 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
 
 def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:
     """Gradients of the areas with respect to corners 0 and 2; that of corner 1 is minus their sum."""
-    half_over = np.divide(0.5, t.twice_area, where=t.twice_area > 0, out=np.zeros_like(t.twice_area))
+    if t.degenerate is None:
+        half_over = 0.5 / t.twice_area
+    else:
+        half_over = np.divide(0.5, t.twice_area, where=t.twice_area > 0, out=np.zeros_like(t.twice_area))
     half_normal = [component * half_over for component in t.normal]
     return cross(half_normal, t.v), cross(half_normal, t.u)
 

@@ -128,15 +128,19 @@ class Surface(Incidence):
         """(V, 3) positions as given, a view."""
         return self.xyz_given.T
 
+    def used_coordinates(self) -> list[NDArray[np.float64]]:
+        """x, y and z as given, of the vertices that faces use."""
+        if self.referenced.all():
+            return list(self.xyz_given)
+        return [x[self.referenced] for x in self.xyz_given]
+
     @cached_property
     def unit_exponent(self) -> int:
         """Lengths are computed in units of 2 to this power, which is exact.
 
         0 unless the mesh is so large or small that squares of areas would leave the range of doubles.
         """
-        every = self.referenced.all()
-        used = (x if every else x[self.referenced] for x in self.xyz_given)
-        extent = float(max(x.max() / 2 - x.min() / 2 for x in used))
+        extent = float(max(x.max() / 2 - x.min() / 2 for x in self.used_coordinates()))
         exponent = math.frexp(extent)[1] + 1
         return 0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else exponent
 

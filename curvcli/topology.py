@@ -65,7 +65,8 @@ class Edges:
         """All half-edges of the given edges, one edge after the other."""
         valence = self.valence[edges]
         before = np.cumsum(valence) - valence
-        return self.order[np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())]
+        chosen: Index = self.order[np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())]
+        return chosen
 
 
 def ends(faces: Index) -> tuple[Index, Index]:
@@ -243,17 +244,21 @@ def _walk(turn: Index, start: Index, corners: Index) -> tuple[NDArray[np.intp], 
     """Of some vertices those where turning does not meet every corner, and those with too many corners to tell."""
     split = np.zeros(len(start), bool)
     active = np.flatnonzero(corners > 1)
-    at, begin, length = start[active], start[active], corners[active]
+    at, length = start.take(active), corners.take(active)
+    begin = at
     for step in range(1, _WALK_LIMIT):
         if not len(active):
             break
-        at = turn[at]
-        stopped = (at < 0) | (at == begin)
-        split[active[stopped]] = True
+        at = turn.take(at)
         # One corner alone is no fan, unless the surface ends on both its sides: there the walk would have begun.
-        going = (length > step + 2) & ~stopped
-        if not going.all():
-            active, at, begin, length = active[going], at[going], begin[going], length[going]
+        going = length > step + 2
+        stopped = (at < 0) | (at == begin)
+        if stopped.any():
+            split[active[stopped]] = True
+            going &= ~stopped
+        left = np.flatnonzero(going)
+        if len(left) < len(active):
+            active, at, begin, length = active.take(left), at.take(left), begin.take(left), length.take(left)
     return np.flatnonzero(split), active
 
 
