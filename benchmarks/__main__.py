@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from typing import get_args
 
 import click
 
 from . import compute, end_to_end, files, quantities, startup
-from .meshes import Mesh, Order
+from .meshes import Mesh, Order, Shape
 
 TABLES = ("startup", "compute", "files", "end-to-end", "passes", "growth")
 
@@ -21,11 +22,11 @@ TABLES = ("startup", "compute", "files", "end-to-end", "passes", "growth")
 )
 @click.option("--repeats", type=click.IntRange(1), help="Rounds of every case (default: 5; quick: 3).")
 @click.option("--size", "sizes", type=click.IntRange(100), multiple=True, help="Vertices; repeatable.")
-@click.option("--shape", type=click.Choice(["sphere", "torus"]), default="sphere", show_default=True)
+@click.option("--shape", type=click.Choice(get_args(Shape)), default="sphere", show_default=True)
 @click.option(
     "--order",
     "orders",
-    type=click.Choice(["regular", "morton", "random"]),
+    type=click.Choice(get_args(Order)),
     multiple=True,
     help="Order of the vertices.",
 )
@@ -35,7 +36,7 @@ def main(
     cache: str | None,
     repeats: int | None,
     sizes: tuple[int, ...],
-    shape: str,
+    shape: Shape,
     orders: tuple[Order, ...],
 ) -> None:
     """Measure curvcli beside its peers, in one run, and print medians and ratios.
@@ -49,7 +50,7 @@ def main(
         folder.mkdir(parents=True, exist_ok=True)
 
         def mesh(size: int, order: Order = "regular") -> Mesh:
-            return Mesh(folder, shape, size, order)  # type: ignore[arg-type]
+            return Mesh(folder, shape, size, order)
 
         def of_sizes(quickly: tuple[int, ...], fully: tuple[int, ...]) -> list[Mesh]:
             return [

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from curvcli.output.stl import write_stl
 from curvcli.samples import get
 
-Shape = Literal["sphere", "torus"]
+Shape = Literal["sphere", "torus", "plate"]
 Order = Literal["regular", "morton", "random"]
 SUFFIXES = (".npz", ".ply", ".obj", ".stl")
 
@@ -35,6 +35,11 @@ class Mesh:
         """What its files are called."""
         return f"{self.shape}-{self.order}-{self.size}"
 
+    @property
+    def closed(self) -> bool:
+        """Whether the surface has no boundary."""
+        return self.shape != "plate"
+
     def path(self, suffix: str) -> str:
         """Its file of that format, written if it is not there."""
         path = self.folder / f"{self.name}{suffix}"
@@ -51,17 +56,28 @@ class Mesh:
 
 
 def make(shape: Shape, size: int, order: Order) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Points (V, 3) that float32 holds exactly, and faces (F, 3): a bumpy sphere with jitter, or a torus."""
+    """Points (V, 3) that float32 holds exactly, and faces (F, 3).
+
+    A bumpy sphere with jitter, a torus with jitter, or a wavy plate with jitter and up to 400 holes, in which vertices
+    are left that no face uses.
+    """
     if shape == "torus":
         sample = get("torus")(size=size, jitter=0.2)
-        points = sample.points
+        points, faces = sample.points, sample.faces
+    elif shape == "plate":
+        sample = get("plane")(size=size, jitter=0.2)
+        x, y, _ = sample.points.T
+        points = np.stack([x, y, 0.1 * np.sin(9 * x) * np.cos(7 * y)], axis=1)
+        hole = np.hypot(20 * x % 1 - 0.5, 20 * y % 1 - 0.5) < 0.2
+        faces = sample.faces[~hole[sample.faces].any(axis=1)]
     else:
         sample = get("icosphere")(size=size)
+        faces = sample.faces
         x, y, z = sample.points.T
         edge = (4 * np.pi / len(sample.faces)) ** 0.5 * 1.5
         shaken = np.random.default_rng(0).normal(scale=0.07 * edge, size=sample.points.shape)
         points = sample.points * (1 + 0.1 * np.sin(5 * x) * np.cos(3 * y) + 0.05 * np.sin(7 * z))[:, None] + shaken
-    faces = sample.faces.astype(np.int64)
+    faces = faces.astype(np.int64)
     if order != "regular":
         keys = morton(points) if order == "morton" else np.random.default_rng(1).permutation(len(points))
         first = np.argsort(keys, kind="stable")
