@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .orientation import same_direction
 from .topology import Index, Mask
@@ -39,7 +38,7 @@ def glue(surface: Surface) -> Gluing:
     """
     edges, faces = surface.edges, surface.faces
     one, other = edges.pairs
-    single = edges.half_edges(np.flatnonzero(edges.valence != 2))
+    single = edges.half_edges(edges.unpaired)
     orientation = surface.orientation
     if orientation.face_sign is None and surface.orientable:
         return Gluing(faces.flatten(), one, other, single, None)
@@ -73,13 +72,3 @@ def glue(surface: Surface) -> Gluing:
         both(single, np.zeros(len(single), bool)),
         np.append(covered, np.ones(len(copied), bool)) if len(copied) else None,
     )
-
-
-def after(side: NDArray[np.integer]) -> NDArray[np.integer]:
-    """The next side of the same face."""
-    return side + np.where(side % 3 == 2, -2, 1).astype(np.int32)
-
-
-def before(side: NDArray[np.integer]) -> NDArray[np.integer]:
-    """The previous side of the same face."""
-    return side + np.where(side % 3 == 0, 2, -1).astype(np.int32)

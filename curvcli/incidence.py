@@ -48,7 +48,7 @@ class Incidence:
         """(V,) number of edges at each vertex."""
         # Each face has two edges at a corner, so the numbers n_e of the edges at a vertex add up to twice its faces:
         # only edges with another n_e than 2 make a difference.
-        twice, odd = 2 * self.corner_count, np.flatnonzero(self.edges.valence != 2)
+        twice, odd = 2 * self.corner_count, self.edges.unpaired
         for end in (self.edges.a, self.edges.b):
             np.add.at(twice, end[odd], 2 - self.edges.valence[odd])
         return twice // np.int32(2)

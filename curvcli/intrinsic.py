@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from .blocks import EPSILON, Floats, dot, triangles
 from .doubledouble import THIN_COTANGENT, DoubleDouble, corner_products, empty
-from .gluing import after, before, glue
+from .gluing import glue
 from .slices import slices
-from .topology import Mask
+from .topology import Mask, next_corner, previous_corner
 
 if TYPE_CHECKING:
     from .surface import Surface
@@ -120,7 +120,7 @@ class IntrinsicTriangulation:
             here, there, free = self._sides(edge)
             f, g = here // 3, there // 3
             self._lift(np.concatenate([f, g]))
-            c, d = self._products.at(before(here)), self._products.at(before(there))
+            c, d = self._products.at(previous_corner(here)), self._products.at(previous_corner(there))
             c_area, d_area = self._twice_area.at(f), self._twice_area.at(g)
             with np.errstate(all="ignore"):
                 one, other = c.high / c_area.high, d.high / d_area.high
@@ -136,7 +136,7 @@ class IntrinsicTriangulation:
         lost: Mask = self._lifted[sides // 3]
         lifted = np.flatnonzero(lost)
         known = sides[lifted]
-        lost[lifted] = self._products.high[known] + self._products.high[after(known)] < _LOST
+        lost[lifted] = self._products.high[known] + self._products.high[next_corner(known)] < _LOST
         return lost
 
     def _sides(self, edges: Indices) -> tuple[Indices, Indices, Mask]:
@@ -177,7 +177,7 @@ class IntrinsicTriangulation:
             edge = edges[block]
             pq = self.side[edge]
             qp = self.mates[edge] - pq
-            qr, rp, ps, sq = after(pq), before(pq), after(qp), before(qp)
+            qr, rp, ps, sq = next_corner(pq), previous_corner(pq), next_corner(qp), previous_corner(qp)
             f, g = pq // 3, qp // 3
             self._lift(np.concatenate([f, g]))
             c_p, c_q, c_r = (self._products.at(side) for side in (pq, qr, rp))
@@ -232,7 +232,7 @@ class IntrinsicTriangulation:
     def lengths_squared(self, edges: slice) -> Floats:
         """Squared lengths of some edges."""
         side = self.side[edges]
-        head = after(side)
+        head = next_corner(side)
         span = [x[self.tail[head]] - x[self.tail[side]] for x in self.xyz]
         squares = dot(span, span)
         new = np.flatnonzero(self._flipped[edges])

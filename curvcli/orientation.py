@@ -110,13 +110,14 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
 
     consistent: whether no edge with n_e = 2 has two faces that run along it the same way.
     """
-    edge = np.arange(len(edges))
     if consistent and orientation.face_sign is None:
         # Two faces that agree cancel: something is left only at edges with one face or with more than two.
-        edge = np.flatnonzero(edges.valence != 2)
+        edge = edges.unpaired
+        half_edges = edges.half_edges(edge)
+    else:
+        edge, half_edges = np.arange(len(edges)), edges.order
     if not len(edge):
         return Uncancelled(edge, edges.a[edge], edges.b[edge], np.zeros(0, np.int32))
-    half_edges = edges.order if len(edge) == len(edges) else edges.half_edges(edge)
     valence, way = edges.valence[edge], _ways(faces, half_edges, orientation)
     surplus = np.add.reduceat(way, np.cumsum(valence) - valence, dtype=np.int32)
     left = np.flatnonzero(surplus)
@@ -127,7 +128,7 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
 def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask:
     """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
     closed = np.ones(len(orientation.orientable), bool)
-    odd = np.flatnonzero(edges.valence != 2)
+    odd = edges.unpaired
     if len(odd):
         half_edges, edge = edges.half_edges(odd), np.repeat(odd, edges.valence[odd])
         key = edge * len(closed) + orientation.patch[half_edges // 3].astype(np.int64)

@@ -50,9 +50,14 @@ class Edges:
         return len(self.a)
 
     @cached_property
+    def unpaired(self) -> NDArray[np.intp]:
+        """The edges with another n_e than 2."""
+        return np.flatnonzero(self.valence != 2)
+
+    @cached_property
     def pairs(self) -> tuple[Index, Index]:
         """The two half-edges of every edge with n_e = 2."""
-        if len(self.order) == 2 * len(self) and (self.valence == 2).all():
+        if not len(self.unpaired):
             return self.order[::2], self.order[1::2]
         inner = np.flatnonzero(self.valence == 2)
         one, other = np.empty(len(inner), np.int32), np.empty(len(inner), np.int32)
@@ -81,7 +86,7 @@ def ends(faces: Index) -> tuple[Index, Index]:
 def ends_of(faces: Index, half_edges: NDArray[np.integer]) -> tuple[Index, Index]:
     """Tail and head of the given half-edges."""
     corners = faces.ravel()
-    return corners[half_edges], corners[_next_corner(half_edges)]
+    return corners.take(half_edges), corners.take(next_corner(half_edges))
 
 
 def find_edges(faces: Index, vertices: int) -> Edges:
@@ -159,6 +164,7 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
             here[:] = further
     lowest = np.flatnonzero(parent == own)
     count, number = len(lowest), own
+    least = np.count_nonzero(edges.corner_count == 0) + 1
     number[lowest] = np.arange(count, dtype=np.int32)
     piece = number.take(parent)
     for step in (_SAMPLE, 1):
@@ -169,7 +175,7 @@ def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
             across.append(np.stack([one.take(apart), other.take(apart)]))
         count, label = label_graph(count, *np.concatenate(across, axis=1))
         piece = label.take(piece)
-        if count == 1:
+        if count == least:
             break
     return count, piece
 
@@ -185,7 +191,7 @@ def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
     return used, new[label]
 
 
-def _next_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
+def next_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
     """The next half-edge of the same face, which is also the next corner."""
     # numpy divides several times faster than it takes remainders.
     first = half_edges // 3 * 3
@@ -193,13 +199,18 @@ def _next_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
     return following
 
 
+def previous_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
+    """The previous half-edge of the same face, which is also the previous corner."""
+    return half_edges + np.where(half_edges % 3 == 0, 2, -1).astype(half_edges.dtype)
+
+
 def neighbouring_corners(faces: Index, one: Index, other: Index) -> tuple[Index, Index]:
     """Pairs of corners at the same vertex on the two sides of each edge given by its two half-edges."""
     tail = faces.ravel()
     same_way = tail[one] == tail[other]
-    at_tail = np.where(same_way, other, _next_corner(other))
-    at_head = np.where(same_way, _next_corner(other), other)
-    return np.concatenate([one, _next_corner(one)]), np.concatenate([at_tail, at_head])
+    at_tail = np.where(same_way, other, next_corner(other))
+    at_head = np.where(same_way, next_corner(other), other)
+    return np.concatenate([one, next_corner(one)]), np.concatenate([at_tail, at_head])
 
 
 def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: bool, boundary_edges: Index) -> Mask:

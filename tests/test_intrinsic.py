@@ -11,8 +11,9 @@ from scipy.spatial import Delaunay, Voronoi
 
 import curvcli
 from curvcli.curvatures.delaunay import circumcentric_areas, delaunay
-from curvcli.gluing import after, before, glue
+from curvcli.gluing import glue
 from curvcli.intrinsic import IntrinsicTriangulation
+from curvcli.topology import next_corner, previous_corner
 
 from . import exact_values as exact
 from . import strategies
@@ -115,7 +116,7 @@ def test_an_obtuse_pillow(height: float) -> None:
     triangulation = IntrinsicTriangulation(pillow.surface())
     assert triangulation.flips == 1
     tail = triangulation.tail
-    assert np.any(tail == tail[after(np.arange(6))])  # the new edge is a loop at the obtuse corner
+    assert np.any(tail == tail[next_corner(np.arange(6))])  # the new edge is a loop at the obtuse corner
 
 
 @pytest.mark.parametrize("width", [1.0, 3.0, 1e-6, 1e6])
@@ -227,8 +228,8 @@ def test_the_triangulation_is_sound(name: str) -> None:
     other = t.mates[t.edge] - side
     assert (t.edge[other[free]] == t.edge[free]).all()
     assert (other[other[free]] == side[free]).all()
-    np.testing.assert_array_equal(t.tail[other[free]], t.tail[after(side[free])])
-    np.testing.assert_array_equal(before(after(side)), side)
+    np.testing.assert_array_equal(t.tail[other[free]], t.tail[next_corner(side[free])])
+    np.testing.assert_array_equal(previous_corner(next_corner(side)), side)
     np.testing.assert_array_equal(t.edge[t.side], np.arange(len(t.side)))
     assert (t.weight[t.mates >= 0] >= -1e-12).all()
     squares = t.lengths_squared(slice(None))[t.edge].reshape(-1, 3)
@@ -243,7 +244,7 @@ def test_a_one_sided_surface_is_covered_twice() -> None:
     assert glued.twofold is not None
     assert glued.twofold.all()
     assert len(glued.single) == 2 * strip.boundary_edges.sum()
-    np.testing.assert_array_equal(glued.tail[glued.one], glued.tail[after(glued.other)])
+    np.testing.assert_array_equal(glued.tail[glued.one], glued.tail[next_corner(glued.other)])
     np.testing.assert_array_equal(np.bincount(glued.tail), 2 * strip.corner_count)
 
 

@@ -6,10 +6,10 @@ import numpy as np
 
 from ..blocks import Floats
 from ..declare import Column, Flags, Quantity, curvature_pass
-from ..gluing import after
 from ..intrinsic import IntrinsicTriangulation
 from ..slices import slices
 from ..surface import Surface
+from ..topology import next_corner
 from .star import null_where
 
 
@@ -54,5 +54,5 @@ def circumcentric_areas(triangulation: IntrinsicTriangulation) -> Floats:
             if t.twofold is not None:
                 part[t.twofold[side // 3]] /= 2
             np.add.at(area, t.tail[side], part)
-            np.add.at(area, t.tail[after(side)], part)
+            np.add.at(area, t.tail[next_corner(side)], part)
     return area

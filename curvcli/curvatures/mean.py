@@ -7,7 +7,7 @@ import numpy as np
 from ..blocks import cross, dot, triangles
 from ..declare import Column, Flags, VectorColumn, curvature_pass
 from ..surface import Surface
-from ..topology import Index
+from ..topology import Index, ends_of, next_corner
 from .star import null_where, ratio
 
 # What divides by |A_vec| is undefined where it is below this part of the star's area, and what divides by H·A where
@@ -76,8 +76,7 @@ def H_vec(surface: Surface, area_gradient: VectorColumn) -> VectorColumn:
     if len(half_edges):
         half = conormals(surface, half_edges)
         half *= 0.5
-        corner, face = half_edges % 3, half_edges // 3
-        for end in (surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]):
+        for end in ends_of(surface.faces, half_edges):
             for component, part in zip(vector, half, strict=True):
                 np.add.at(component, end, part)
     return vector
@@ -85,10 +84,11 @@ def H_vec(surface: Surface, area_gradient: VectorColumn) -> VectorColumn:
 
 def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
     """(3, n) outward unit conormals times length, η|e| = e × ν, of the given half-edges in their own faces."""
-    t = triangles(surface.xyz, surface.faces[half_edges // 3])
-    edge = np.choose(half_edges % 3, np.array([t.u, t.v, [-x for x in t.w]])[:, :, :])
+    head = next_corner(half_edges)
+    corners = [surface.faces.ravel().take(each) for each in (half_edges, head, next_corner(head))]
+    t = triangles(surface.xyz, np.stack(corners, axis=1))
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.array(cross(edge, t.normal)) / t.twice_area
+        return np.array(cross(t.u, t.normal)) / t.twice_area
 
 
 @curvature_pass(
