@@ -14,7 +14,7 @@ MAX_EDGES = 20_000
 # A block of pairs whose temporaries stay in the second-level cache.
 _ROWS, _COLUMNS = 16, 1024
 # Up to so many edges curves of equal size are summed together.
-_SMALL = 64
+_SMALL = 96
 _TOGETHER = 1 << 15
 
 
