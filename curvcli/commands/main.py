@@ -17,6 +17,7 @@ from ..exits import INTERNAL, INTERRUPTED, OK, OUTPUT, USAGE, exit_code
 from ..memory import NUMPY, ran_out, require
 from .allocation import keep_memory
 from .config import META, blamed, configure
+from .deferred import defer_imports
 from .signals import Ending, Handler
 from .streams import complete, refused, settle
 from .talk import internal, say
@@ -86,6 +87,7 @@ class LazyGroup(click.Group):
             configure(ctx, ctx.params.get("config"), lambda command: self.get_command(ctx, command))
         require(NUMPY)
         keep_memory()
+        defer_imports()
         return super().resolve_command(ctx, args)
 
 
