@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 
-# scipy asks numpy for everything it has, and trimesh imports filters of images: a twentieth of a run on a large mesh.
-NEVER_USED = ("numpy.f2py", "numpy.testing", "scipy.ndimage")
+# scipy asks numpy for everything that it has, and trimesh imports what rotates and filters: a tenth of the start.
+NEVER_USED = ("numpy.f2py", "numpy.polynomial", "numpy.testing", "scipy.ndimage", "scipy.spatial.transform")
 
 
 class Deferred:
