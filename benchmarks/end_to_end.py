@@ -36,13 +36,16 @@ def tables(mesh: Mesh, repeats: int) -> None:
     """Measure and print, a table for each format."""
     with tempfile.TemporaryDirectory(dir=mesh.folder) as folder:
         for suffix in FORMATS:
-            results = measure(mesh.path(suffix), Path(folder), repeats)
-            show(
-                f"File to CSV and coloured PLY: {mesh.size:,} vertices, {suffix[1:].upper()}, whole process; "
-                f"medians of {repeats}",
-                results,
-                [
-                    ("time", lambda name, of=results: seconds(of.median(name, "wall"))),  # type: ignore[misc]
-                    ("curvcli / it", lambda name, of=results: times(of.ratio(OURS, name, "wall"))),  # type: ignore[misc]
-                ],
-            )
+            _table(mesh, suffix, measure(mesh.path(suffix), Path(folder), repeats), repeats)
+
+
+def _table(mesh: Mesh, suffix: str, results: Results, repeats: int) -> None:
+    show(
+        f"File to CSV and coloured PLY: {mesh.size:,} vertices, {suffix[1:].upper()}, whole process; "
+        f"medians of {repeats}",
+        results,
+        [
+            ("time", lambda name: seconds(results.median(name, "wall"))),
+            ("curvcli / it", lambda name: times(results.ratio(OURS, name, "wall"))),
+        ],
+    )

@@ -14,7 +14,7 @@ import numpy as np
 
 from curvcli.commands.allocation import keep_memory
 
-from .harness import Case, interleaved, python, report, seconds, show, times
+from .harness import Case, Results, interleaved, python, report, seconds, show, times
 from .meshes import Mesh
 from .peers import READ, write_polars, write_savetxt
 
@@ -102,18 +102,18 @@ def tables(mesh: Mesh, warm: Mesh, repeats: int) -> None:
     jobs = [(f"Read {suffix[1:].upper()}", OURS, cases("read", READERS, suffix)) for suffix in SUFFIXES]
     jobs.append(("Write twelve columns", "curvcli, CSV", cases("write", WRITERS, ".npz")))
     for title, ours, these in jobs:
-        results = interleaved(these, repeats, f"{title} {Path(mesh.name).name}")
-        show(
-            f"{title}: {mesh.size:,} vertices, imports not counted; medians of {repeats}",
-            results,
-            [
-                ("time", lambda name, of=results: seconds(of.median(name))),  # type: ignore[misc]
-                (
-                    f"{ours} / it",
-                    lambda name, of=results, one=ours: times(of.ratio(one, name)),  # type: ignore[misc]
-                ),
-            ],
-        )
+        _table(title, ours, interleaved(these, repeats, f"{title} {Path(mesh.name).name}"), mesh, repeats)
+
+
+def _table(title: str, ours: str, results: Results, mesh: Mesh, repeats: int) -> None:
+    show(
+        f"{title}: {mesh.size:,} vertices, imports not counted; medians of {repeats}",
+        results,
+        [
+            ("time", lambda name: seconds(results.median(name))),
+            (f"{ours} / it", lambda name: times(results.ratio(ours, name))),
+        ],
+    )
 
 
 if __name__ == "__main__":

@@ -207,10 +207,7 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
 
 def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:
     """Gradients of the areas with respect to corners 0 and 2; that of corner 1 is minus their sum."""
-    if t.degenerate is None:
-        half_over = 0.5 / t.twice_area
-    else:
-        half_over = np.divide(0.5, t.twice_area, where=t.twice_area > 0, out=np.zeros_like(t.twice_area))
+    half_over = np.divide(0.5, t.twice_area, where=t.twice_area > 0, out=np.zeros_like(t.twice_area))
     half_normal = [component * half_over for component in t.normal]
     return cross(half_normal, t.v), cross(half_normal, t.u)
 

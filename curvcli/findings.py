@@ -224,7 +224,7 @@ def _edges_are_longer(columns: Mapping[str, Any], faces: NDArray[Any], length: f
 
 def _more_digits(surface: Surface) -> str:
     """Where the digits went that K would need."""
-    used = np.stack(surface.used_coordinates())
+    used = surface.used_coordinates()
     largest = np.abs(used).max()
     if largest < np.finfo(np.float64).tiny:
         return "numbers near the end of the range have fewer digits: scale the mesh before it is written"
@@ -235,8 +235,9 @@ def _more_digits(surface: Surface) -> str:
 
 def last_place(surface: Surface, kind: type[np.floating[Any]] = np.float64) -> float:
     """The unit in the last place of the largest coordinate that a face uses, in the unit of computation."""
-    largest = max(float(max(x.max(), -x.min())) for x in surface.used_coordinates())
-    largest = min(largest, float(np.finfo(kind).max) / 2)  # beyond the last one there is no number
+    used = surface.used_coordinates()
+    # Beyond the last one there is no number.
+    largest = min(max(float(used.max()), -float(used.min())), float(np.finfo(kind).max) / 2)
     place = np.float64(np.spacing(kind(largest)))
     return float(np.ldexp(place, -surface.unit_exponent))
 

@@ -32,7 +32,7 @@ def precision(surface: Surface) -> Precision:
     Those that are all float32 numbers are taken as stored so; those that are all short decimals as written with so many
     digits after the point; the finer of the two where both hold, as for whole numbers; else they are doubles.
     """
-    used = np.stack(surface.used_coordinates())
+    used = surface.used_coordinates()
     largest = float(np.abs(used).max())
     places = decimals(used, largest)
     if is_single(used):

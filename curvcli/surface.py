@@ -128,11 +128,9 @@ class Surface(Incidence):
         """(V, 3) positions as given, a view."""
         return self.xyz_given.T
 
-    def used_coordinates(self) -> list[NDArray[np.float64]]:
-        """x, y and z as given, of the vertices that faces use."""
-        if self.referenced.all():
-            return list(self.xyz_given)
-        return [x[self.referenced] for x in self.xyz_given]
+    def used_coordinates(self) -> NDArray[np.float64]:
+        """(3, n) coordinates as given, of the vertices that faces use."""
+        return self.xyz_given if self.referenced.all() else self.xyz_given.compress(self.referenced, axis=1)
 
     @cached_property
     def unit_exponent(self) -> int:
@@ -140,7 +138,8 @@ class Surface(Incidence):
 
         0 unless the mesh is so large or small that squares of areas would leave the range of doubles.
         """
-        extent = float(max(x.max() / 2 - x.min() / 2 for x in self.used_coordinates()))
+        used = self.used_coordinates()
+        extent = float((used.max(axis=1) / 2 - used.min(axis=1) / 2).max())
         exponent = math.frexp(extent)[1] + 1
         return 0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else exponent
 

@@ -52,7 +52,9 @@ class Edges:
     @cached_property
     def unpaired(self) -> NDArray[np.intp]:
         """The edges with another n_e than 2."""
-        return np.flatnonzero(self.valence != 2)
+        edges = np.flatnonzero(self.valence != 2)
+        edges.setflags(write=False)
+        return edges
 
     @cached_property
     def pairs(self) -> tuple[Index, Index]:
@@ -64,6 +66,8 @@ class Edges:
         for block in slices(len(inner), LONG):
             begin = self.start.take(inner[block])
             one[block], other[block] = self.order.take(begin), self.order.take(begin + 1)
+        one.setflags(write=False)
+        other.setflags(write=False)
         return one, other
 
     def half_edges(self, edges: NDArray[np.integer]) -> Index:
@@ -74,7 +78,7 @@ class Edges:
         return chosen
 
 
-def ends(faces: Index) -> tuple[Index, Index]:
+def _ends(faces: Index) -> tuple[Index, Index]:
     """Tail and head of every half-edge, (3F,) each."""
     tail = faces.ravel()
     head = np.empty_like(tail)
@@ -124,7 +128,7 @@ def _by_high(faces: Index, vertices: int) -> Any:
     n = 3 * len(faces)
     low, high = np.empty(n, np.int32), np.empty(n, np.int32)
     for block in slices(len(faces), LONG):
-        tail, head = ends(faces[block])
+        tail, head = _ends(faces[block])
         half_edges = slice(3 * block.start, 3 * block.stop)
         np.minimum(tail, head, out=low[half_edges])
         np.maximum(tail, head, out=high[half_edges])

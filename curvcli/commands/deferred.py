@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 
-# scipy asks numpy for everything that it has, and trimesh imports what rotates and filters: a tenth of the start.
+# scipy asks numpy for everything that it has, and trimesh imports what rotates and filters.
 NEVER_USED = ("numpy.f2py", "numpy.polynomial", "numpy.testing", "scipy.ndimage", "scipy.spatial.transform")
 
 
