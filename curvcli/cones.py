@@ -1,11 +1,15 @@
 """Normal cones of the convex hulls of stars: how much of the sphere of directions a vertex supports.
 
-Directions come as (3, d, n): d directions at each of n apices. Everything is computed for all apices at once, at a cost
-of n d (d + facets of the hull). Decisions are made on unit vectors, so a wrong one means that a direction within
-rounding of the hull was taken for a part of it or not, which moves the result by rounding only.
+Directions come as (3, d, n): d directions at each of n apices, and everything is computed for all apices at once. Few
+directions in general position have their facets counted out, at a cost of n d³ simple operations. The others have
+their hull wrapped, at a cost of n d (d + facets of the hull). There decisions are made on unit vectors, so a wrong one
+means that a direction within rounding of the hull was taken for a part of it or not, which moves the result by
+rounding only.
 """
 
 from __future__ import annotations
+
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +25,8 @@ _SAME = 8 * EPSILON
 _COPLANAR = 32 * EPSILON
 # An angle that is large against rounding and small against what matters.
 _NEARBY = 1e-10
+# Up to so many directions, all their determinants cost less than wrapping.
+_COUNTED = 16
 # A mean direction within about 87° of all directions serves as the axis of their cone.
 _WITHIN = 0.05
 
@@ -31,6 +37,52 @@ def normal_cone_areas(directions: Floats, hint: Floats) -> Floats:
     2π − Σ of the angles between neighbouring extreme directions; 0 where the cone contains a line. directions:
     (3, d, n), none of them zero. hint: (3, n) any vectors; where all directions are on one side of it, that saves time.
     """
+    if directions.shape[1] > _COUNTED:
+        return _by_wrapping(directions, hint)
+    area, unsure = _by_facets(directions)
+    rest = np.flatnonzero(unsure)
+    if len(rest):
+        area[rest] = _by_wrapping(directions[:, :, rest], hint[:, rest])
+    return area
+
+
+def _by_facets(directions: Floats) -> tuple[Floats, Mask]:
+    """The same where no three directions are coplanar to rounding, and where some are.
+
+    Two directions span a facet if their determinants with all others have one sign; without facets, the cone is all of
+    space.
+    """
+    d, n = directions.shape[1:]
+    square = dot(directions, directions).max(axis=0)
+    rounding = _COPLANAR * square * np.sqrt(square)
+    pairs = list(combinations(range(d), 2))
+    place = {pair: k for k, pair in enumerate(pairs)}
+    sides = np.zeros((len(pairs), n), np.int8)
+    unsure = np.full(n, d < 3) | (rounding < _UNDERFLOW)
+    for i, j in pairs:
+        later = d - 1 - j
+        if not later:
+            continue
+        determinant = dot(cross(directions[:, i], directions[:, j]), directions[:, j + 1 :])
+        sign = (determinant > rounding).view(np.int8) - (determinant < -rounding).view(np.int8)
+        unsure |= (sign == 0).any(axis=0)
+        with_i, with_j = place[i, j + 1], place[j, j + 1]
+        sides[place[i, j]] += sign.sum(axis=0, dtype=np.int8)
+        sides[with_i : with_i + later] -= sign
+        sides[with_j : with_j + later] += sign
+    pair, apex = np.nonzero(np.abs(sides) == d - 2)
+    ends = np.array(pairs).reshape(-1, 2)[pair].T * n + apex
+    a, b = (directions.reshape(3, -1)[:, end] for end in ends)
+    normal = cross(a, b)
+    angle = np.arctan2(np.sqrt(dot(normal, normal)), dot(a, b))
+    # A cone has three facets or more, all of space none.
+    area = 2 * np.pi - np.bincount(apex, angle, n)
+    area[np.bincount(apex, minlength=n) == 0] = 0.0
+    return np.maximum(area, 0.0), unsure
+
+
+def _by_wrapping(directions: Floats, hint: Floats) -> Floats:
+    """The same for directions in any position: an axis of their cone is found and the cone is wrapped round it."""
     square = dot(directions, directions)
     if square.min() < _UNDERFLOW:
         directions = directions / np.abs(directions).max(axis=0)
