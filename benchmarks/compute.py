@@ -26,11 +26,11 @@ QUICK = (OURS, AS_COMMAND, "libigl angle defect", "libigl", "VTK", "trimesh angl
 def curvcli(points: Any, faces: Any) -> dict[str, Any]:
     """The core preset and every count of the topology."""
     from curvcli.census import census, classify
-    from curvcli.pipeline import CORE, evaluate
+    from curvcli.pipeline import CORE, evaluate, prepare
     from curvcli.surface import Surface
 
     surface = Surface(points, faces)
-    surface.let_go_of_edges()  # as every analysis does
+    prepare(surface, CORE)  # as every analysis does
     columns = evaluate(surface, CORE)
     return {**columns, "census": census(surface, surface.whole), "kinds": classify(surface, surface.whole)}
 

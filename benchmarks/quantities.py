@@ -44,7 +44,7 @@ def each_pass(path: str) -> None:
 def preset(name: str, path: str) -> None:
     """Time a preset with the topology, per vertex, on the mesh, after one run of it on a small mesh."""
     from curvcli.census import census, classify
-    from curvcli.pipeline import evaluate, resolve
+    from curvcli.pipeline import evaluate, prepare, resolve
     from curvcli.samples import get
     from curvcli.surface import Surface
 
@@ -54,8 +54,9 @@ def preset(name: str, path: str) -> None:
     for points, faces in ((small.points, small.faces), given):
         begin = time.perf_counter()
         surface = Surface(points, faces)
-        surface.let_go_of_edges()  # as every analysis does
-        found = evaluate(surface, resolve([name]))
+        names = resolve([name])
+        prepare(surface, names)  # as every analysis does
+        found = evaluate(surface, names)
         census(surface, surface.whole), classify(surface, surface.whole)
         elapsed = time.perf_counter() - begin
     report({"seconds": elapsed / len(points) * 1e6, "columns": len(found)})

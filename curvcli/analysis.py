@@ -20,7 +20,7 @@ from .declare import AT_SCALE, CELL_AREAS, passes
 from .errors import Notice, UsageError
 from .groups import Groups
 from .loading.surfaces import Orient, as_surface
-from .pipeline import at_scales, defaults, evaluate, presented, resolve, schedule
+from .pipeline import at_scales, defaults, evaluate, prepare, presented, resolve, schedule
 from .precision import precision
 from .regions import Regions, cut_apart, find_regions
 from .regions import findings as region_findings
@@ -64,6 +64,7 @@ class Analysis:
             *self._flags,
             *(need for rule in self._rules for need in rule.needs),
         }
+        prepare(surface, wanted, conventions.area)
         self.columns = evaluate(surface, wanted, area=conventions.area, settings=settings)
         self._later: dict[str, Array] = {}
         self.cut: Analysis | None = None
@@ -244,7 +245,6 @@ def analyze(
         if value not in known:
             raise UsageError(f"{option} is {value!r}, expected one of {', '.join(known)}")
     found = as_surface(surface, orient=orient, weld=weld, normals=normals)
-    found.let_go_of_edges()
     if isinstance(regions, os.PathLike):
         regions = os.fspath(regions)
     named = regions if regions is None or isinstance(regions, str) else "array"

@@ -49,8 +49,7 @@ def normal_cone_areas(directions: Floats, hint: Floats) -> Floats:
 def _by_facets(directions: Floats) -> tuple[Floats, Mask]:
     """The same where no three directions are coplanar to rounding, and where some are.
 
-    Two directions span a facet if their determinants with all others have one sign; without facets, the cone is all of
-    space.
+    Two directions span a facet if their determinants with all others have one sign. A cone with none is all of space.
     """
     d, n = directions.shape[1:]
     square = dot(directions, directions).max(axis=0)
@@ -70,15 +69,14 @@ def _by_facets(directions: Floats) -> tuple[Floats, Mask]:
         sides[place[i, j]] += sign.sum(axis=0, dtype=np.int8)
         sides[with_i : with_i + later] -= sign
         sides[with_j : with_j + later] += sign
-    pair, apex = np.nonzero(np.abs(sides) == d - 2)
-    ends = np.array(pairs).reshape(-1, 2)[pair].T * n + apex
-    a, b = (directions.reshape(3, -1)[:, end] for end in ends)
-    normal = cross(a, b)
-    angle = np.arctan2(np.sqrt(dot(normal, normal)), dot(a, b))
-    # A cone has three facets or more, all of space none.
-    area = 2 * np.pi - np.bincount(apex, angle, n)
-    area[np.bincount(apex, minlength=n) == 0] = 0.0
-    return np.maximum(area, 0.0), unsure
+    facets = np.abs(sides) == d - 2
+    area = np.full(n, 2 * np.pi)
+    for (i, j), facet in zip(pairs, facets, strict=True):
+        there = np.flatnonzero(facet)
+        a, b = ([x[end].take(there) for x in directions] for end in (i, j))
+        normal = cross(a, b)
+        area[there] -= np.arctan2(np.sqrt(dot(normal, normal)), dot(a, b))
+    return np.where(facets.any(axis=0), np.maximum(area, 0.0), 0.0), unsure
 
 
 def _by_wrapping(directions: Floats, hint: Floats) -> Floats:

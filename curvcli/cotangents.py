@@ -42,21 +42,20 @@ def dirichlet(surface: Surface, f: Floats) -> Dirichlet:
     energy, energy_terms = np.empty(surface.n_faces), np.empty(surface.n_faces)
     gradient, gradient_terms = np.zeros((3, n)), np.zeros(n)
     for block in slices(surface.n_faces):
-        face = surface.faces[block]
-        t = triangles(surface.xyz, face)
-        sides = (t.v, t.w, t.u) if f is surface.xyz else _opposite_sides(f, face)
+        t = triangles(surface.xyz, surface.faces[block])
+        sides = (t.v, t.w, t.u) if f is surface.xyz else _opposite_sides(f, t.corners)
         squares = [dot(side, side) for side in sides]
         cotangents, cosecants, flat = _angles(t)
         energy[block] = 0.25 * sum(c * s for c, s in zip(cotangents, squares, strict=True))
         energy[block][flat] = np.nan
         energy_terms[block] = 0.25 * sum(c * s for c, s in zip(cosecants, squares, strict=True))
-        _scatter(gradient, gradient_terms, face, sides, squares, cotangents, cosecants)
+        _scatter(gradient, gradient_terms, t.corners, sides, squares, cotangents, cosecants)
     return Dirichlet(energy, gradient, energy_terms, gradient_terms)
 
 
-def _opposite_sides(f: Floats, face: NDArray[np.int32]) -> tuple[Vector, Vector, Vector]:
+def _opposite_sides(f: Floats, corners: NDArray[np.intp]) -> tuple[Vector, Vector, Vector]:
     """The images of the edges opposite corners 0, 1, 2, from corner 1 to 2, 0 to 2, 0 to 1."""
-    p, q, r = ([x[face[:, k]] for x in f] for k in range(3))
+    p, q, r = ([x.take(corner) for x in f] for corner in corners)
     v, w, u = ([b - a for a, b in zip(tail, head, strict=True)] for tail, head in ((q, r), (p, r), (p, q)))
     return v, w, u
 
@@ -72,7 +71,7 @@ def _angles(t: Triangles) -> tuple[list[Floats], list[Floats], NDArray[np.bool_]
 def _scatter(
     gradient: Floats,
     terms: Floats,
-    face: NDArray[np.int32],
+    corners: NDArray[np.intp],
     sides: tuple[Vector, Vector, Vector],
     squares: list[Floats],
     cotangents: list[Floats],
@@ -86,7 +85,6 @@ def _scatter(
         (1, (0, -1.0), (2, 1.0)),
         (2, (0, 1.0), (1, 1.0)),
     ):
-        at = np.ascontiguousarray(face[:, corner])
         for k in range(3):
-            np.add.at(gradient[k], at, sign * pull[first][k] + other * pull[second][k])
-        np.add.at(terms, at, size[first] + size[second])
+            np.add.at(gradient[k], corners[corner], sign * pull[first][k] + other * pull[second][k])
+        np.add.at(terms, corners[corner], size[first] + size[second])

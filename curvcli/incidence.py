@@ -130,7 +130,7 @@ class Incidence:
     def winding_conflicts(self) -> Mask:
         """(E,) edges with n_e = 2 whose two faces run along them the same way in the file."""
         conflict = np.zeros(len(self.edges), bool)
-        conflict[self.edges.valence == 2] = same_direction(self.faces, *self.edges.pairs)
+        conflict[self.edges.inner] = same_direction(self.faces, *self.edges.pairs)
         return conflict
 
     @cached_property

@@ -53,23 +53,25 @@ class IntrinsicTriangulation:
     def __init__(self, surface: Surface, most_flips: int | None = None) -> None:
         glued = glue(surface)
         self.xyz, self.n_vertices, self.tail, self.twofold = surface.xyz, surface.n_vertices, glued.tail, glued.twofold
-        pairs, singles = len(glued.one), len(glued.single)
-        self.side = np.concatenate([glued.one, glued.single])
-        self.mates = np.concatenate([glued.one + glued.other, np.full(singles, -1, np.int32)])
-        self.edge = np.empty(len(self.tail), np.int32)
-        self.edge[self.side] = np.arange(pairs + singles, dtype=np.int32)
-        self.edge[glued.other] = np.arange(pairs, dtype=np.int32)
-
-        n_faces, n_edges = len(self.tail) // 3, pairs + singles
+        pairs = len(glued.one)
+        n_faces, n_edges = len(self.tail) // 3, pairs + len(glued.single)
         self._cotangent, self._thin = self._plain_cotangents()
         self._lifted = np.zeros(n_faces, bool)
         self._products, self._twice_area = empty(len(self.tail)), empty(n_faces)
         self._flipped = np.zeros(n_edges, bool)
         self._mark = np.empty(max(n_edges, n_faces), np.int32)
         self.flips = self.rounds = 0
-        with np.errstate(over="ignore", invalid="ignore"):
-            inner = self._cotangent[glued.one] + self._cotangent[glued.other]
-        self.weight = np.concatenate([inner, self._cotangent[glued.single]])
+        self.side, self.mates, self.weight = np.empty(n_edges, np.int32), np.empty(n_edges, np.int32), np.empty(n_edges)
+        self.edge = np.empty(len(self.tail), np.int32)
+        for block in slices(pairs):
+            one, other = (np.ascontiguousarray(sides[block], np.intp) for sides in (glued.one, glued.other))
+            self.side[block], self.mates[block] = one, one + other
+            self.edge[one] = self.edge[other] = np.arange(block.start, block.stop, dtype=np.int32)
+            with np.errstate(over="ignore", invalid="ignore"):
+                self.weight[block] = self._cotangent.take(one) + self._cotangent.take(other)
+        self.side[pairs:], self.mates[pairs:] = glued.single, -1
+        self.edge[glued.single] = np.arange(pairs, n_edges, dtype=np.int32)
+        self.weight[pairs:] = self._cotangent[glued.single]
         self.failing = self.weight < -_LIMIT
         self.failing[pairs:] = False
         self._weigh_thin(self._distinct(self._edges_of(np.flatnonzero(self._thin))))
@@ -231,9 +233,10 @@ class IntrinsicTriangulation:
 
     def lengths_squared(self, edges: slice) -> Floats:
         """Squared lengths of some edges."""
-        side = self.side[edges]
+        side = self.side[edges].astype(np.intp)
         head = next_corner(side)
-        span = [x[self.tail[head]] - x[self.tail[side]] for x in self.xyz]
+        ends = [self.tail.take(corner).astype(np.intp) for corner in (side, head)]
+        span = [x.take(ends[1]) - x.take(ends[0]) for x in self.xyz]
         squares = dot(span, span)
         new = np.flatnonzero(self._flipped[edges])
         squares[new] = (self._products.at(side[new]) + self._products.at(head[new])).high

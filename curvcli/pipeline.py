@@ -116,6 +116,15 @@ def at_scales(names: Iterable[str], settings: Settings) -> list[str]:
     return [name + scale for name in names for scale in (each if passes.depends_on_scale(name) else [""])]
 
 
+def prepare(surface: Surface, names: Iterable[str], area: str = "barycentric") -> None:
+    """Work out the topology, and let go of the edges unless one of the named quantities comes by way of edges."""
+    order = schedule((name.partition(AT_SCALE)[0] for name in names), area)
+    if any(quantity.on == "edge" for one in order for quantity in one.provides):
+        surface.work_out_topology()
+    else:
+        surface.let_go_of_edges()
+
+
 def evaluate(
     surface: Surface,
     names: Iterable[str],

@@ -253,14 +253,18 @@ class Surface(Incidence):
         pieces, face = renumber_by_lowest_member(vertex[self.faces[:, 0]], count)
         return by_label(self, face, pieces, "component")
 
+    def work_out_topology(self) -> None:
+        """Work out what every analysis asks of the edges."""
+        for known in _OF_EDGES:
+            getattr(self, known)
+
     def let_go_of_edges(self) -> None:
         """Work out what every analysis asks of the edges, and give their memory back: 72 bytes per vertex.
 
         Whatever asks for them later has them sorted again, which costs less than the first touch of as much memory by
         all that does without them.
         """
-        for known in _OF_EDGES:
-            getattr(self, known)
+        self.work_out_topology()
         self.__dict__.pop("edges", None)
 
     @cached_property

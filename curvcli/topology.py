@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,19 @@ _SAMPLE = 8
 
 # Stars are walked corner by corner up to this many faces; the rare larger ones go through the corner graph.
 _WALK_LIMIT = 64
+
+
+class InnerEdges(NamedTuple):
+    """Some edges with n_e = 2, in the type that numpy gathers and scatters by.
+
+    where: which edges they are. a, b: (n,) their ends. one, other: (n,) their half-edges.
+    """
+
+    where: slice | NDArray[np.intp]
+    a: NDArray[np.intp]
+    b: NDArray[np.intp]
+    one: NDArray[np.intp]
+    other: NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -57,18 +70,32 @@ class Edges:
         return edges
 
     @cached_property
+    def inner(self) -> slice | NDArray[np.intp]:
+        """The edges with n_e = 2, as an index."""
+        if not len(self.unpaired):
+            return slice(None)
+        edges = np.flatnonzero(self.valence == 2)
+        edges.setflags(write=False)
+        return edges
+
+    @cached_property
     def pairs(self) -> tuple[Index, Index]:
         """The two half-edges of every edge with n_e = 2."""
-        if not len(self.unpaired):
+        if isinstance(self.inner, slice):
             return self.order[::2], self.order[1::2]
-        inner = np.flatnonzero(self.valence == 2)
-        one, other = np.empty(len(inner), np.int32), np.empty(len(inner), np.int32)
-        for block in slices(len(inner), LONG):
-            begin = self.start.take(inner[block])
+        one, other = np.empty(len(self.inner), np.int32), np.empty(len(self.inner), np.int32)
+        for block in slices(len(self.inner), LONG):
+            begin = self.start.take(self.inner[block])
             one[block], other[block] = self.order.take(begin), self.order.take(begin + 1)
         one.setflags(write=False)
         other.setflags(write=False)
         return one, other
+
+    def inner_edges(self, block: slice) -> InnerEdges:
+        """A block of the edges with n_e = 2, of which there are as many as `pairs`."""
+        where = block if isinstance(self.inner, slice) else self.inner[block]
+        both = self.a[where], self.b[where], self.pairs[0][block], self.pairs[1][block]
+        return InnerEdges(where, *(np.ascontiguousarray(each, np.intp) for each in both))
 
     def half_edges(self, edges: NDArray[np.integer]) -> Index:
         """All half-edges of the given edges, one edge after the other."""

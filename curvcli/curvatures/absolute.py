@@ -14,10 +14,10 @@ from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
-from ..topology import Edges, Index
+from ..topology import Index
 
 # Directions per block: so many that two threads rarely wait for each other at the interpreter.
-_DIRECTIONS = 65536
+_DIRECTIONS = 131072
 # Degrees up to this have a group of their own; larger ones are rounded up, the last direction repeated.
 _EXACT_DEGREE = 24
 
@@ -62,13 +62,12 @@ def absolute_curvature(surface: Surface, K: Column, theta: Column, star_vector: 
     """K⁺, K⁻ and |K| from the convex hull of each star; needs no orientation."""
     plus = np.where(surface.interior, np.maximum(K, 0.0), np.nan)
     chosen = np.flatnonzero(surface.interior & ~np.isnan(K) & ~locally_convex(surface, K, theta))
-    neighbours, first = _neighbours(surface.edges, surface.n_vertices)
+    neighbours = _Neighbours(surface)
 
     def hull(block: tuple[NDArray[np.intp], int]) -> None:
         vertices, degree = block
-        place = np.minimum(np.arange(degree)[:, None], surface.degree[vertices] - 1) + first[vertices]
-        around = neighbours[place]
-        directions = np.array([x[around] - x[vertices] for x in surface.xyz])
+        around = neighbours.of(vertices, degree)
+        directions = np.array([x.take(around) - x.take(vertices) for x in surface.xyz])
         plus[vertices] = np.maximum(plus[vertices], normal_cone_areas(directions, star_vector[:, vertices]))
 
     for_each(_blocks_by_degree(chosen, surface.degree), hull)
@@ -85,7 +84,8 @@ def locally_convex(surface: Surface, K: Column, theta: Column) -> Flags:
     """
     up, down = np.zeros(surface.n_vertices), np.zeros(surface.n_vertices)
     for block in slices(len(surface.edges)):
-        a, b, angle = surface.edges.a[block], surface.edges.b[block], theta[block]
+        a, b = (end[block].astype(np.intp) for end in (surface.edges.a, surface.edges.b))
+        angle = theta[block]
         for total, part in ((up, np.maximum(angle, 0.0)), (down, np.maximum(-angle, 0.0))):
             np.add.at(total, a, part)
             np.add.at(total, b, part)
@@ -94,12 +94,27 @@ def locally_convex(surface: Surface, K: Column, theta: Column) -> Flags:
     return np.asarray(convex & ~surface.without_orientation)
 
 
-def _neighbours(edges: Edges, vertices: int) -> tuple[Index, Index]:
-    """The other ends of the edges at every vertex, vertex by vertex, and where each vertex begins."""
-    one, other = np.concatenate([edges.a, edges.b]), np.concatenate([edges.b, edges.a])
-    rows = np.arange(len(one) + 1, dtype=np.int32)
-    by_vertex = csr_array((other, one, rows), shape=(len(one), vertices)).tocsc()
-    return by_vertex.data, by_vertex.indptr
+class _Neighbours:
+    """The other ends of the edges at every vertex: those with lower numbers, then those with higher ones."""
+
+    def __init__(self, surface: Surface) -> None:
+        edges, vertices = surface.edges, surface.n_vertices
+        rows = np.arange(len(edges) + 1, dtype=np.int32)
+        by_high_end = csr_array((edges.a, edges.b, rows), shape=(len(edges), vertices)).tocsc()
+        self.lower, first_lower = by_high_end.data, by_high_end.indptr
+        self.higher = edges.b  # edges are sorted by their lower ends
+        self.first_lower, self.count_lower = first_lower[:-1], np.diff(first_lower)
+        count_higher = surface.degree - self.count_lower
+        self.first_higher = np.cumsum(count_higher, dtype=np.int32) - count_higher
+        self.degree = surface.degree
+
+    def of(self, vertices: NDArray[np.intp], degree: int) -> NDArray[np.intp]:
+        """(degree, n) neighbours of vertices that have at most so many, the last one repeated."""
+        rank = np.minimum(np.arange(degree, dtype=np.int32)[:, None], self.degree.take(vertices) - np.int32(1))
+        above = rank - self.count_lower.take(vertices)
+        lower = self.lower.take(self.first_lower.take(vertices) + rank, mode="clip")
+        higher = self.higher.take(self.first_higher.take(vertices) + above, mode="clip")
+        return np.asarray(np.where(above < 0, lower, higher), np.intp)
 
 
 def _blocks_by_degree(chosen: NDArray[np.intp], degree: Index) -> Iterator[tuple[NDArray[np.intp], int]]:

@@ -9,6 +9,7 @@ from ..declare import Column, Flags, curvature_pass
 from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
+from ..topology import previous_corner
 from .edges import EDGES_PER_BLOCK
 from .star import null_where
 
@@ -25,15 +26,12 @@ from .star import null_where
 def beta(surface: Surface, degenerate_face: Flags) -> Column:
     """Exterior intersection angle of the circumcircles of the edge's two faces."""
     angle = np.full(len(surface.edges), np.nan)
-    inner = np.flatnonzero(surface.edges.valence == 2)
     corners = surface.faces.reshape(-1)
 
     def meet(block: slice) -> None:
-        edges = inner[block]
-        start = surface.edges.start[edges]
-        sides = surface.edges.order[start], surface.edges.order[start + 1]
-        a, b = (np.stack([x[end[edges]] for x in surface.xyz]) for end in (surface.edges.a, surface.edges.b))
-        c, d = (surface.xyz[:, corners[h - h % 3 + (h + 2) % 3]] for h in sides)
+        edges = surface.edges.inner_edges(block)
+        left, right = (corners.take(previous_corner(half_edges)) for half_edges in (edges.one, edges.other))
+        a, b, c, d = (surface.xyz.take(vertex, axis=1) for vertex in (edges.a, edges.b, left, right))
         # Up to a positive factor q is the product of four imaginary quaternions, xy = −x·y + x × y.
         u, v, w, z = a - c, c - b, b - d, d - a
         s, t = -dot(u, v), -dot(w, z)
@@ -41,10 +39,10 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
         pq = cross(p, q)
         imaginary = [s * y + t * x + xy for x, y, xy in zip(p, q, pq, strict=True)]
         found = np.arctan2(np.sqrt(dot(imaginary, imaginary)), dot(p, q) - s * t)
-        lost = degenerate_face[sides[0] // 3] | degenerate_face[sides[1] // 3]
-        angle[edges] = np.where(lost, np.nan, found)
+        lost = degenerate_face.take(edges.one // 3) | degenerate_face.take(edges.other // 3)
+        angle[edges.where] = np.where(lost, np.nan, found)
 
-    for_each(slices(len(inner), EDGES_PER_BLOCK), meet)
+    for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), meet)
     return angle
 
 
@@ -59,6 +57,7 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
 def willmore_conformal(surface: Surface, beta: Column) -> Column:
     """Bobenko's conformal energy of the vertex, never negative."""
     total = np.zeros(surface.n_vertices)
-    for ends in (surface.edges.a, surface.edges.b):
-        np.add.at(total, ends, beta)
+    for block in slices(len(beta)):
+        for ends in (surface.edges.a, surface.edges.b):
+            np.add.at(total, ends[block].astype(np.intp), beta[block])
     return null_where(~surface.interior, 0.5 * (total - 2 * np.pi))

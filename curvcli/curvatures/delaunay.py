@@ -49,10 +49,10 @@ def circumcentric_areas(triangulation: IntrinsicTriangulation) -> Floats:
     area = np.zeros(t.n_vertices)
     with np.errstate(over="ignore", invalid="ignore"):  # at the corners of faces without area
         for block in slices(len(t.side)):
-            side = t.side[block]
+            side = t.side[block].astype(np.intp)
             part = t.lengths_squared(block) * t.weight[block] / 8
             if t.twofold is not None:
                 part[t.twofold[side // 3]] /= 2
-            np.add.at(area, t.tail[side], part)
-            np.add.at(area, t.tail[next_corner(side)], part)
+            for corner in (side, next_corner(side)):
+                np.add.at(area, t.tail.take(corner).astype(np.intp), part)
     return area

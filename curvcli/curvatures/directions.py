@@ -70,8 +70,8 @@ def star_tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
     a, b = surface.edges.a, surface.edges.b
     tensor, size = np.zeros((6, surface.n_vertices)), np.zeros(surface.n_vertices)
     for block in slices(len(surface.edges)):
-        ends = a[block], b[block]
-        span = [x[ends[1]] - x[ends[0]] for x in surface.xyz]
+        ends = a[block].astype(np.intp), b[block].astype(np.intp)
+        span = [x.take(ends[1]) - x.take(ends[0]) for x in surface.xyz]
         length = np.sqrt(dot(span, span))
         bend = theta[block] * length
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON, cross, dot
+from ..blocks import EPSILON, Floats, cross, dot
 from ..declare import Column, Flags, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
+from ..topology import InnerEdges, Mask
 from .mean import conormals
 from .star import null_where
 
@@ -34,8 +33,20 @@ FOLD = 8 * EPSILON
 )
 def edge_length(surface: Surface) -> Column:
     """Length of the edge."""
-    span = [x[surface.edges.b] - x[surface.edges.a] for x in surface.xyz]
-    return np.asarray(np.sqrt(dot(span, span)))
+    length = np.empty(len(surface.edges))
+
+    def measure(block: slice) -> None:
+        a, b = (end[block].astype(np.intp) for end in (surface.edges.a, surface.edges.b))
+        span = _span(surface, a, b)
+        np.sqrt(dot(span, span), out=length[block])
+
+    for_each(slices(len(length), EDGES_PER_BLOCK), measure)
+    return length
+
+
+def _span(surface: Surface, a: NDArray[np.intp], b: NDArray[np.intp]) -> list[Floats]:
+    """b − a of the given vertices."""
+    return [x.take(b) - x.take(a) for x in surface.xyz]
 
 
 @curvature_pass(
@@ -52,15 +63,14 @@ def edge_length(surface: Surface) -> Column:
 def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
     """Exterior dihedral angle of the edge, positive where convex."""
     angle = np.full(len(surface.edges), np.nan)
-    inner = np.flatnonzero(surface.edges.valence == 2)
     face_sign = surface.orientation.face_sign
     without = None if surface.orientable else ~surface.orientation.orientable[surface.orientation.patch]
 
     def turn_of(block: slice) -> None:
-        edges = inner[block]
+        edges = surface.edges.inner_edges(block)
         one, other, forward, against = _sides(surface, edges)
-        nu, mu = ([x[face] for x in unit_normal] for face in (one, other))
-        span = [x[surface.edges.b[edges]] - x[surface.edges.a[edges]] for x in surface.xyz]
+        nu, mu = ([x.take(face) for x in unit_normal] for face in (one, other))
+        span = _span(surface, edges.a, edges.b)
         # With the file's windings made to agree, the one face is on the left where its half-edge runs from a to b.
         agree = np.where(forward != against, 1.0, -1.0)
         side = np.where(forward, agree, -agree)
@@ -70,9 +80,9 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
         together = agree * dot(nu, mu)
         # Two faces that lie on each other turn by π; the sign of a sine that is all rounding means nothing.
         found = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
-        angle[edges] = found if without is None else np.where(without[one], np.abs(found), found)
+        angle[edges.where] = found if without is None else np.where(without[one], np.abs(found), found)
 
-    for_each(slices(len(inner), EDGES_PER_BLOCK), turn_of)
+    for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), turn_of)
     return angle
 
 
@@ -83,13 +93,11 @@ def folded(theta: Column) -> Flags:
     return mask
 
 
-def _sides(surface: Surface, edges: NDArray[np.intp]) -> tuple[NDArray[Any], ...]:
-    """Of edges with n_e = 2: their two faces, and whether each face's half-edge runs from a to b in the file."""
-    start = surface.edges.start[edges]
-    half_edges = surface.edges.order[start], surface.edges.order[start + 1]
-    a = surface.edges.a[edges]
+def _sides(surface: Surface, edges: InnerEdges) -> tuple[NDArray[np.intp], NDArray[np.intp], Mask, Mask]:
+    """The two faces at each edge, and whether each face's half-edge runs from a to b in the file."""
     tail = surface.faces.reshape(-1)
-    return half_edges[0] // 3, half_edges[1] // 3, tail[half_edges[0]] == a, tail[half_edges[1]] == a
+    forward, against = (tail.take(half_edges) == edges.a for half_edges in (edges.one, edges.other))
+    return edges.one // 3, edges.other // 3, forward, against
 
 
 @curvature_pass(
@@ -107,17 +115,15 @@ def _sides(surface: Surface, edges: NDArray[np.intp]) -> tuple[NDArray[Any], ...
 def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
     """Mean curvature vector of the edge: minus the sum of its outward conormals, |e| long each."""
     vector = np.full((3, len(surface.edges)), np.nan)
-    inner = np.flatnonzero(surface.edges.valence == 2)
 
     def bend(block: slice) -> None:
-        edges = inner[block]
+        edges = surface.edges.inner_edges(block)
         one, other, forward, against = _sides(surface, edges)
         way, back = np.where(forward, 1.0, -1.0), np.where(against, 1.0, -1.0)
-        span = [x[surface.edges.b[edges]] - x[surface.edges.a[edges]] for x in surface.xyz]
-        between = [way * nu[one] + back * nu[other] for nu in unit_normal]
-        vector[:, edges] = cross(between, span)
+        between = [way * nu.take(one) + back * nu.take(other) for nu in unit_normal]
+        vector[:, edges.where] = cross(between, _span(surface, edges.a, edges.b))
 
-    for_each(slices(len(inner), EDGES_PER_BLOCK), bend)
+    for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), bend)
     many = surface.nonmanifold_edges
     if many.any():
         half_edges = surface.edges.half_edges(np.flatnonzero(many))

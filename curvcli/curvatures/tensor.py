@@ -53,7 +53,7 @@ def tangential(tensor: Floats, normal: VectorColumn) -> tuple[Floats, Floats, Fl
 def line(vector: VectorColumn) -> VectorColumn:
     """The vector or its opposite: the first component that is largest, to rounding, is made positive."""
     size = np.abs(vector)
-    largest = (size >= _EQUAL * size.max(axis=0)).argmax(axis=0)
-    leading = np.take_along_axis(vector, largest[None], axis=0)
+    largest = size >= _EQUAL * size.max(axis=0)
+    leading = np.where(largest[0], vector[0], np.where(largest[1], vector[1], vector[2]))
     signed: VectorColumn = np.copysign(1.0, leading) * vector
     return signed
