@@ -8,10 +8,10 @@ from typing import get_args
 
 import click
 
-from . import compute, end_to_end, files, quantities, startup
+from . import compute, end_to_end, files, growth, startup
 from .meshes import Mesh, Order, Shape
 
-TABLES = ("startup", "compute", "files", "end-to-end", "passes", "growth")
+TABLES = ("startup", "compute", "files", "end-to-end", "growth")
 
 
 @click.command()
@@ -41,7 +41,7 @@ def main(
 ) -> None:
     """Measure curvcli beside its peers, in one run, and print medians and ratios.
 
-    TABLE: startup, compute, files, end-to-end, passes, growth; all of them if none is named. Peers that are not
+    TABLE: startup, compute, files, end-to-end, growth; all of them if none is named. Peers that are not
     installed are named and left out: pip install '.[bench]'.
     """
     chosen, rounds = tables or TABLES, repeats or (3 if quick else 5)
@@ -69,11 +69,8 @@ def main(
         if "end-to-end" in chosen:
             for one in of_sizes((100_000,), (10_000, 100_000, 1_000_000)):
                 end_to_end.tables(one, rounds)
-        if "passes" in chosen:
-            for one in of_sizes((100_000,), (1_000_000,)):
-                quantities.pass_table(one, rounds)
         if "growth" in chosen:
-            quantities.growth_table(of_sizes((10_000, 100_000), (100_000, 1_000_000, 4_000_000)), rounds)
+            growth.tables(of_sizes((10_000, 100_000), (100_000, 1_000_000, 4_000_000)), rounds)
 
 
 if __name__ == "__main__":

@@ -93,6 +93,17 @@ def needs(one: Pass, area: str) -> list[str]:
     return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need not in NO_QUANTITIES]
 
 
+def arguments(
+    one: Pass, surface: Surface, have: Mapping[str, Array], area: str = "barycentric", settings: Settings = DEFAULTS
+) -> list[Any]:
+    """What a pass is called with."""
+    columns = iter(needs(one, area))
+    return [
+        surface if need == SURFACE else getattr(settings, need) if need in NO_QUANTITIES else have[next(columns)]
+        for need in one.needs
+    ]
+
+
 def schedule(names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Pass]:
     """The passes that must run for the named quantities, each after what it needs."""
     load_passes()
@@ -172,12 +183,7 @@ def _evaluate(
     order = schedule([name for name in keep if name not in have], area, set(have))
     uses = Counter(need for one in order for need in needs(one, area))
     for one in order:
-        required = iter(needs(one, area))
-        given = (
-            surface if need == SURFACE else getattr(settings, need) if need in NO_QUANTITIES else have[next(required)]
-            for need in one.needs
-        )
-        found = one.compute(*given)
+        found = one.compute(*arguments(one, surface, have, area, settings))
         for quantity, array in zip(one.provides, found if len(one.provides) > 1 else (found,), strict=True):
             array.setflags(write=False)
             have[quantity.name] = array

@@ -1,0 +1,77 @@
+"""What each preset costs, and how the cost of a vertex grows with the mesh."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from curvcli.commands.allocation import keep_memory
+
+from .harness import Case, Results, interleaved, python, report, show, times
+from .meshes import Mesh
+
+PRESETS = ("topology", "core", "paper")
+
+
+def preset(name: str, path: str) -> None:
+    """Time a preset with the topology, per vertex, on the mesh, after one run of it on a small mesh."""
+    from curvcli.census import census, classify
+    from curvcli.pipeline import evaluate, prepare, resolve
+    from curvcli.samples import get
+    from curvcli.surface import Surface
+
+    small = get("icosphere")(size=1000)
+    with np.load(path) as stored:
+        given = (stored["points"], stored["faces"])
+    for points, faces in ((small.points, small.faces), given):
+        begin = time.perf_counter()
+        surface = Surface(points, faces)
+        names = resolve([name])
+        prepare(surface, names)  # as every analysis does
+        found = evaluate(surface, names)
+        census(surface, surface.whole), classify(surface, surface.whole)
+        elapsed = time.perf_counter() - begin
+    report({"seconds": elapsed / len(points) * 1e6, "columns": len(found)})
+
+
+def _case(*arguments: str) -> Case:
+    return Case(python("-m", "benchmarks.growth", *arguments), {"NUMPY_MADVISE_HUGEPAGE": "0"})
+
+
+def tables(meshes: Sequence[Mesh], repeats: int) -> None:
+    """Measure the presets on meshes of growing size and print the cost per vertex."""
+    cases = {_row(name, mesh): _case(name, mesh.path(".npz")) for mesh in meshes for name in PRESETS}
+    results = interleaved(cases, repeats, "presets")
+
+    def against(row: str, size: int | None, name: str | None) -> str:
+        mine, mesh = next((n, m) for n in PRESETS for m in meshes if row == _row(n, m))
+        base = next(m for m in meshes if size in (None, m.size) and (size is not None or m == mesh))
+        return times(results.ratio(row, _row(name or mine, base)))
+
+    smallest = meshes[0].size
+    show(
+        f"Presets with topology, per million vertices; medians of {repeats}",
+        results,
+        [
+            ("time", lambda row: _milliseconds(results, row)),
+            ("of core", lambda row: against(row, None, "core")),
+            (f"of {smallest:,} vertices", lambda row: against(row, smallest, None)),
+        ],
+    )
+
+
+def _row(name: str, mesh: Mesh) -> str:
+    order = "" if mesh.order == "regular" else f", {mesh.order} order"
+    return f"{name}, {mesh.size:,} vertices{order}"
+
+
+def _milliseconds(results: Results, row: str) -> str:
+    return f"{1000 * (results.median(row) or 0):.0f} ms"
+
+
+if __name__ == "__main__":
+    keep_memory()
+    preset(*sys.argv[1:])
