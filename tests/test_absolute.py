@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 import curvcli
+from curvcli import cones
 from curvcli.cones import normal_cone_areas
 from tests import meshes
 from tests.meshes import Mesh, mesh
@@ -116,6 +117,22 @@ def test_decisions_within_rounding_move_the_result_by_rounding(noise: float) -> 
     for star, value in ((octant, np.pi / 2), (flat, 0.0), (edge, 0.0), (folded, wide), (needle, TURN)):
         stars = star + noise * rng.normal(size=(300, *star.shape))
         np.testing.assert_allclose(areas(stars), value, rtol=0, atol=40 * noise + 2e-14)
+
+
+@pytest.mark.parametrize("degree", [3, 4, 6, 9, 16])
+@pytest.mark.parametrize("height", [1e-6, 1e-2, 1.0])
+def test_counting_and_wrapping_agree(degree: int, height: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Caps, saddles and what is between, nearly flat and steep, by their facets and with their hulls wrapped."""
+    rng = np.random.default_rng(degree)
+    turn = TURN * np.arange(degree) / degree + rng.normal(scale=0.1, size=(200, degree))
+    bend, saddle = rng.normal(size=(2, 200, 1))
+    stars = np.stack([np.cos(turn), np.sin(turn), height * (bend + saddle * np.cos(2 * turn))], axis=2)
+    stars *= rng.uniform(0.5, 2, size=(200, degree, 1))
+    counted = areas(stars)
+    monkeypatch.setattr(cones, "_COUNTED", 0)
+    np.testing.assert_allclose(counted, areas(stars), rtol=0, atol=1e-14)
+    assert (counted > 0).any()
+    assert (counted == 0).any() or degree == 3
 
 
 def test_size_of_the_edges_does_not_matter() -> None:
