@@ -11,6 +11,7 @@ import click
 from . import compute, end_to_end, files, growth, startup
 from .meshes import Mesh, Order, Shape
 
+SIZES = (10_000, 100_000, 1_000_000, 4_000_000)
 TABLES = ("startup", "compute", "files", "end-to-end", "growth")
 
 
@@ -61,16 +62,16 @@ def main(
         if "startup" in chosen:
             startup.tables(small, rounds)
         if "compute" in chosen:
-            for one in of_sizes((100_000,), (100_000, 1_000_000)):
+            for one in of_sizes((100_000,), SIZES):
                 compute.tables(one, small, rounds, quick)
         if "files" in chosen:
-            for one in of_sizes((100_000,), (100_000, 1_000_000)):
+            for one in of_sizes((100_000,), SIZES):
                 files.tables(one, small, rounds)
         if "end-to-end" in chosen:
-            for one in of_sizes((100_000,), (10_000, 100_000, 1_000_000)):
+            for one in of_sizes((100_000,), SIZES):
                 end_to_end.tables(one, rounds)
         if "growth" in chosen:
-            growth.tables(of_sizes((10_000, 100_000), (100_000, 1_000_000, 4_000_000)), rounds)
+            growth.tables(of_sizes((10_000, 100_000), SIZES[1:]), rounds)
 
 
 if __name__ == "__main__":

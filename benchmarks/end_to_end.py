@@ -19,6 +19,7 @@ PEERS = {
     "VTK, savetxt": ("VTK", "savetxt"),
     "libigl, savetxt": ("libigl", "savetxt"),
     "trimesh, savetxt": ("trimesh", "savetxt"),
+    "PyMeshLab, savetxt": ("PyMeshLab", "savetxt"),
 }
 
 

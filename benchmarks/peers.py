@@ -155,7 +155,22 @@ def read_trimesh(path: str) -> tuple[Floats, Faces]:
     return mesh.vertices, mesh.faces
 
 
-READ = {"libigl": read_libigl, "VTK": read_vtk, "trimesh": read_trimesh}
+def load_pymeshlab(path: str) -> Any:
+    """load_new_mesh, which merges equal positions of STL."""
+    import pymeshlab
+
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(path)
+    return meshes
+
+
+def read_pymeshlab(path: str) -> tuple[Floats, Faces]:
+    """The same, as arrays."""
+    mesh = load_pymeshlab(path).current_mesh()
+    return mesh.vertex_matrix(), mesh.face_matrix()
+
+
+READ = {"libigl": read_libigl, "VTK": read_vtk, "trimesh": read_trimesh, "PyMeshLab": read_pymeshlab}
 
 
 # ---------------------------------------------------------------- writing
@@ -197,12 +212,20 @@ def write_coloured_ply(path: str, points: Floats, faces: Faces, values: Floats) 
         rows.tofile(stream)
 
 
+def read_and_compute(library: str, path: str) -> tuple[Floats, Faces, Computed]:
+    """Positions, triangles and what the library makes of them."""
+    if library == "PyMeshLab":  # it computes on the mesh that it has read
+        meshes = load_pymeshlab(path)
+        found, mesh = discrete_curvatures(meshes), meshes.current_mesh()
+        return mesh.vertex_matrix(), mesh.face_matrix(), found
+    points, faces = READ[library](path)
+    points, faces = np.ascontiguousarray(points, np.float64), np.ascontiguousarray(faces, np.int64)
+    return points, faces, {"libigl": libigl, "VTK": vtk, "trimesh": trimesh}[library](points, faces)
+
+
 def pipeline(library: str, writer: str, mesh: str, csv: str, ply: str) -> None:
     """File → CSV of twelve columns and coloured PLY; what a library does not give is filled up: all write alike."""
-    points, faces = READ[library](mesh)
-    points, faces = np.ascontiguousarray(points, np.float64), np.ascontiguousarray(faces, np.int64)
-    compute = {"libigl": libigl, "VTK": vtk, "trimesh": trimesh}[library]
-    found = compute(points, faces)
+    points, faces, found = read_and_compute(library, mesh)
     K: Any = found.get("K", found.get("pointwise"))
     H: Any = found.get("H", K)
     H_vec = H if H.ndim == 2 else np.stack([H, H, H], axis=1)
