@@ -57,7 +57,7 @@ def _by_facets(directions: Floats) -> tuple[Floats, Mask]:
     pairs = list(combinations(range(d), 2))
     place = {pair: k for k, pair in enumerate(pairs)}
     sides = np.zeros((len(pairs), n), np.int8)
-    unsure = np.full(n, d < 3) | (rounding < _UNDERFLOW)
+    unsure = np.full(n, d < 3) | ((_COPLANAR * square) ** 2 < _UNDERFLOW)
     for i, j in pairs:
         later = d - 1 - j
         if not later:

@@ -140,6 +140,8 @@ def test_size_of_the_edges_does_not_matter() -> None:
     stars = rng.normal(loc=(0, 0, 1), size=(50, 6, 3))
     sizes = np.ldexp(1.0, rng.integers(-900, -100, size=(50, 6, 1)))
     np.testing.assert_allclose(areas(stars * sizes), areas(stars), rtol=0, atol=1e-14)
+    for exponent in range(-1000, 61, 20):
+        np.testing.assert_allclose(areas(np.ldexp(stars, exponent)), areas(stars), rtol=0, atol=1e-14)
 
 
 def columns(given: Mesh) -> tuple[Floats, Floats, Floats, Floats]:
