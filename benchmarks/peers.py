@@ -166,7 +166,8 @@ def load_pymeshlab(path: str) -> Any:
 
 def read_pymeshlab(path: str) -> tuple[Floats, Faces]:
     """The same, as arrays."""
-    mesh = load_pymeshlab(path).current_mesh()
+    meshes = load_pymeshlab(path)  # a mesh does not keep its set alive
+    mesh = meshes.current_mesh()
     return mesh.vertex_matrix(), mesh.face_matrix()
 
 

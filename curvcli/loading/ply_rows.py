@@ -77,7 +77,7 @@ def _columns(element: Element, rows: NDArray[Any]) -> Columns:
             columns.scalars[p.name] = rows[f"v{k}"]
         else:
             items = rows[f"v{k}"]
-            columns.lists[p.name] = (np.full(len(rows), items.shape[1], np.int64), items.reshape(-1))
+            columns.lists[p.name] = (np.broadcast_to(np.int64(items.shape[1]), len(rows)), items.reshape(-1))
     return columns
 
 

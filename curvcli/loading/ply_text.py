@@ -111,7 +111,7 @@ def _same_layout(rows: _Rows) -> Columns | None:
         if not (columns[at - 1] == length).all():
             return None
         items = np.stack(columns[at : at + length], axis=1) if length else np.empty((rows.element.count, 0))
-        read.lists[p.name] = (np.full(rows.element.count, length), _typed(items.reshape(-1), p))
+        read.lists[p.name] = (np.broadcast_to(np.int64(length), rows.element.count), _typed(items.reshape(-1), p))
     return read
 
 
