@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..slices import slices
+from ..slices import LONG, slices
 from .model import MeshFile
 
 _CROWD = 200
@@ -50,49 +50,63 @@ def weld_exact(xyz: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int32], NDArr
     xyz: (3, n) float64 or float32, one row per coordinate.
     Returns the lowest index of each group (m,), ascending, and for each position the number of its group (n,).
     """
-    unsigned = np.uint64 if xyz.dtype == np.float64 else np.uint32
-    bits = [(row + xyz.dtype.type(0)).view(unsigned) for row in xyz]
-    lowest = _lowest_equal(bits)
-    is_first = lowest == np.arange(len(lowest), dtype=np.int32)
+    lowest = _lowest_equal(xyz)
+    is_first = np.empty(len(lowest), np.bool_)
+    for block in slices(len(lowest), LONG):
+        is_first[block] = lowest[block] == _indices(block)
     number = np.cumsum(is_first, dtype=np.int32)
     number -= 1
-    return np.flatnonzero(is_first).astype(np.int32), number[lowest]
+    for block in slices(len(lowest), LONG):
+        lowest[block] = number.take(lowest[block])
+    return np.flatnonzero(is_first).astype(np.int32), lowest
 
 
-def _lowest_equal(bits: list[NDArray[Any]]) -> NDArray[np.int32]:
-    """For each column of bits the lowest index of an equal column.
+def _lowest_equal(xyz: NDArray[np.floating[Any]]) -> NDArray[np.int32]:
+    """For each position the lowest index of an equal one.
 
-    A hash table filled in bulk: of all columns that fall into a slot the lowest index stays, whoever equals it is
-    settled, the others (few) go on to the next round with another hash. Equality is always tested on the bits.
+    A hash table filled in bulk: of all positions that fall into a slot the lowest index stays, whoever equals it is
+    settled, the others (few) go on to the next round with another hash. Equality is always tested on the bits. All in
+    pieces, since the first touch of memory costs about as much as the arithmetic on it.
     """
-    n = len(bits[0])
-    lowest = index = np.arange(n, dtype=np.int32)
-    table = np.empty(1, np.int32)
+    lowest, table = np.empty(xyz.shape[1], np.int32), np.empty(1, np.int32)
+    count, pieces = len(lowest), list[slice | NDArray[np.int32]](slices(len(lowest), LONG))
     for round_ in range(32):
-        columns = [row if len(index) == n else row[index] for row in bits]
-        slots = max(4, len(index).bit_length())
-        slot = (_hash(columns, round_) >> np.uint64(64 - slots)).astype(np.intp)
-        if len(table) < 1 << slots:
-            table = np.empty(1 << slots, np.int32)
-        table[slot[::-1]] = index[::-1]  # the last assignment wins: the lowest index
-        candidate = table.take(slot)
-        equal = np.ones(len(index), np.bool_)
-        for row, column in zip(bits, columns, strict=True):
-            equal &= row[candidate] == column
-        if len(index) == n:
-            lowest = candidate
-        else:
-            lowest[index] = candidate
-        index = index[~equal]  # whose candidate is replaced
-        if not len(index):
+        if not count:
             return lowest
+        power = max(4, count.bit_length())
+        if len(table) < 1 << power:
+            table = np.empty(1 << power, np.int32)
+        shift = np.uint64(64 - power)
+        slots = [(_hash(_bits(xyz, piece), round_) >> shift).astype(np.uint32) for piece in pieces]
+        for piece, slot in zip(reversed(pieces), reversed(slots), strict=True):
+            table[slot[::-1].astype(np.intp)] = _indices(piece)[::-1]  # the last assignment wins: the lowest index
+        unsettled = []
+        for piece, slot in zip(pieces, slots, strict=True):
+            candidate = table.take(slot)
+            both = zip(_bits(xyz, piece), _bits(xyz, candidate), strict=True)
+            equal = np.logical_and.reduce([mine == other for mine, other in both])
+            lowest[piece] = candidate
+            unsettled.append(_indices(piece)[~equal])  # whose candidate is replaced
+        index = np.concatenate(unsettled)
+        count, pieces = len(index), [index[block] for block in slices(len(index), LONG)]
     # Only a file made for it gets here: sort what is left.
-    columns = [row[index] for row in bits]
+    columns = _bits(xyz, index)
     order = np.lexsort((index, *columns))
     new = np.ones(len(order), np.bool_)
     new[1:] = np.any([column[order[1:]] != column[order[:-1]] for column in columns], axis=0)
     lowest[index[order]] = index[order][new][np.cumsum(new) - 1]
     return lowest
+
+
+def _indices(piece: slice | NDArray[np.int32]) -> NDArray[np.int32]:
+    """The indices that a piece stands for."""
+    return np.arange(piece.start, piece.stop, dtype=np.int32) if isinstance(piece, slice) else piece
+
+
+def _bits(xyz: NDArray[np.floating[Any]], chosen: slice | NDArray[np.int32]) -> list[NDArray[Any]]:
+    """The coordinates of some positions as unsigned numbers, -0.0 as 0.0."""
+    unsigned = np.uint64 if xyz.dtype == np.float64 else np.uint32
+    return [(row[chosen] + xyz.dtype.type(0)).view(unsigned) for row in xyz]
 
 
 def _hash(columns: list[NDArray[Any]], round_: int) -> NDArray[np.uint64]:
