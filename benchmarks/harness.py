@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import random
 import statistics
 import subprocess
 import sys
@@ -88,14 +89,18 @@ def run(case: Case) -> Measured | str:
 
 
 def interleaved(cases: Mapping[str, Case], repeats: int, what: str, warm_up: bool = False) -> Results:
-    """Run the cases one after the other, round after round; a case that fails is not tried again."""
+    """Run the cases one after the other, round after round; a case that fails is not tried again.
+
+    Every round has another order, the same in every run: who comes after a case that has just given back much memory
+    touches it faster, and that must not always be the same one.
+    """
     results = Results({name: [] for name in cases}, {})
     columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
     progress = Progress(*columns, console=Console(stderr=True), transient=True)
     with progress:
         task = progress.add_task(what)
         for round_ in range(-1 if warm_up else 0, repeats):
-            for name, case in cases.items():
+            for name, case in random.Random(round_).sample(list(cases.items()), len(cases)):
                 if name in results.failures:
                     continue
                 progress.update(task, description=f"{what}: round {round_ + 1} of {repeats}, {name}")
