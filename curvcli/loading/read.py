@@ -96,22 +96,30 @@ def _read(
                 raw = read_limited(file, max_bytes)
         else:
             raw = read_limited(source, max_bytes)
-        digest = pool.submit(lambda: hashlib.sha256(raw).hexdigest())
+        digest = pool.submit(_sha256, raw)
         data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
         kind, notices = recognise(data, wanted)
+        size = len(data)
+        # Nobody else holds on to the bytes: their memory serves for what is made of the mesh.
+        parsed = [data]
+        del raw, data
 
         def content() -> Made:
-            mesh = _parse(data, kind, weld, max_faces, normals)
+            mesh = _parse(parsed.pop(), kind, weld, max_faces, normals)
             check_faces(mesh.polygons, max_faces)
             merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
             notes = (*notices, *mesh.notices)
             return make(replace(mesh, path=shown(path), sha256=digest.result(), weld=merged, notices=notes))
 
         made = pool.submit(content)  # made while trimesh is imported
-        if not importing and len(data) > SMALL:
-            importing.append(pool.submit(_import_polars, len(data)))
+        if not importing and size > SMALL:
+            importing.append(pool.submit(_import_polars, size))
         wait(importing)
         return _through_trimesh(made, kind)
+
+
+def _sha256(raw: bytes) -> str:
+    return hashlib.sha256(raw).hexdigest()
 
 
 def _import_polars(data: int) -> None:
