@@ -49,6 +49,11 @@ def dot(a: Vector, b: Vector) -> Floats:
     return product
 
 
+def span(xyz: Vector, a: NDArray[np.integer], b: NDArray[np.integer]) -> list[Floats]:
+    """The vectors from points a to points b; xyz: one row per coordinate, a, b: indices, fastest as intp."""
+    return [x.take(b) - x.take(a) for x in xyz]
+
+
 @dataclass(frozen=True)
 class Triangles:
     """The geometry of some faces.

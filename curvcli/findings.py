@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import dot
+from .blocks import dot, span
 from .census import duplicate_faces, duplicate_vertices
 from .errors import Notice
 from .loading.weld import weld_exact
@@ -197,8 +197,8 @@ def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterat
     shortest = max(last_place(surface) / TRUSTED, last_place(surface, np.float32) / TRUSTED_SINGLE)
     if _edges_are_longer(columns, surface.faces, 2 * np.sqrt(3) * surface.degree.max() * shortest):
         return
-    span = [x[surface.edges.b] - x[surface.edges.a] for x in surface.xyz]
-    edge_length = np.sqrt(dot(span, span))
+    along = span(surface.xyz, surface.edges.a, surface.edges.b)
+    edge_length = np.sqrt(dot(along, along))
     blurred = np.flatnonzero(rounding_of_K(surface, edge_length, last_place(surface), TRUSTED) > TRUSTED)
     what, bound = "coordinates", TRUSTED
     if not len(blurred) and is_single(surface.xyz_given):

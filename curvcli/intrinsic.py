@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON, Floats, dot, triangles
+from .blocks import EPSILON, Floats, dot, span, triangles
 from .doubledouble import THIN_COTANGENT, DoubleDouble, corner_products, empty
 from .gluing import glue
 from .slices import slices
@@ -236,8 +236,8 @@ class IntrinsicTriangulation:
         side = self.side[edges].astype(np.intp)
         head = next_corner(side)
         ends = [self.tail.take(corner).astype(np.intp) for corner in (side, head)]
-        span = [x.take(ends[1]) - x.take(ends[0]) for x in self.xyz]
-        squares = dot(span, span)
+        along = span(self.xyz, *ends)
+        squares = dot(along, along)
         new = np.flatnonzero(self._flipped[edges])
         squares[new] = (self._products.at(side[new]) + self._products.at(head[new])).high
         return squares

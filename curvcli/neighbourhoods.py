@@ -11,7 +11,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from scipy.sparse import csr_array
 
-from .blocks import Floats, dot
+from .blocks import Floats, dot, span
 from .settings import Scale
 from .slices import slices
 from .surface import Surface
@@ -48,9 +48,8 @@ def mean_edge_length(surface: Surface) -> float:
     """The mean length of all edges, in the unit of computation."""
     total = 0.0
     for block in slices(len(surface.edges)):
-        a, b = surface.edges.a[block], surface.edges.b[block]
-        span = [x[b] - x[a] for x in surface.xyz]
-        total += float(np.sqrt(dot(span, span)).sum())
+        along = span(surface.xyz, surface.edges.a[block], surface.edges.b[block])
+        total += float(np.sqrt(dot(along, along)).sum())
     return total / len(surface.edges)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON, Floats, dot
+from ..blocks import EPSILON, Floats, dot, span
 from ..declare import Column, Quantity, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
@@ -71,11 +71,11 @@ def star_tensors(surface: Surface, theta: Column) -> tuple[Floats, Floats]:
     tensor, size = np.zeros((6, surface.n_vertices)), np.zeros(surface.n_vertices)
     for block in slices(len(surface.edges)):
         ends = a[block].astype(np.intp), b[block].astype(np.intp)
-        span = [x.take(ends[1]) - x.take(ends[0]) for x in surface.xyz]
-        length = np.sqrt(dot(span, span))
+        along = np.array(span(surface.xyz, *ends))
+        length = np.sqrt(dot(along, along))
         bend = theta[block] * length
         with np.errstate(divide="ignore", invalid="ignore"):
-            along = np.array(span) / length
+            along /= length
         for total, part in (
             *((tensor[k], bend * along[i] * along[j]) for k, (i, j) in enumerate(ENTRIES)),
             (size, length),

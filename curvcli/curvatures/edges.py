@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON, Floats, cross, dot
+from ..blocks import EPSILON, cross, dot, span
 from ..declare import Column, Flags, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
@@ -37,16 +37,11 @@ def edge_length(surface: Surface) -> Column:
 
     def measure(block: slice) -> None:
         a, b = (end[block].astype(np.intp) for end in (surface.edges.a, surface.edges.b))
-        span = _span(surface, a, b)
-        np.sqrt(dot(span, span), out=length[block])
+        along = span(surface.xyz, a, b)
+        np.sqrt(dot(along, along), out=length[block])
 
     for_each(slices(len(length), EDGES_PER_BLOCK), measure)
     return length
-
-
-def _span(surface: Surface, a: NDArray[np.intp], b: NDArray[np.intp]) -> list[Floats]:
-    """b − a of the given vertices."""
-    return [x.take(b) - x.take(a) for x in surface.xyz]
 
 
 @curvature_pass(
@@ -70,13 +65,13 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
         edges = surface.edges.inner_edges(block)
         one, other, forward, against = _sides(surface, edges)
         nu, mu = ([x.take(face) for x in unit_normal] for face in (one, other))
-        span = _span(surface, edges.a, edges.b)
+        along = span(surface.xyz, edges.a, edges.b)
         # With the file's windings made to agree, the one face is on the left where its half-edge runs from a to b.
         agree = np.where(forward != against, 1.0, -1.0)
         side = np.where(forward, agree, -agree)
         if face_sign is not None:
             side *= face_sign[one]
-        turn = side * dot(cross(nu, mu), span) / np.sqrt(dot(span, span))
+        turn = side * dot(cross(nu, mu), along) / np.sqrt(dot(along, along))
         together = agree * dot(nu, mu)
         # Two faces that lie on each other turn by π; the sign of a sine that is all rounding means nothing.
         found = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
@@ -121,7 +116,7 @@ def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
         one, other, forward, against = _sides(surface, edges)
         way, back = np.where(forward, 1.0, -1.0), np.where(against, 1.0, -1.0)
         between = [way * nu.take(one) + back * nu.take(other) for nu in unit_normal]
-        vector[:, edges.where] = cross(between, _span(surface, edges.a, edges.b))
+        vector[:, edges.where] = cross(between, span(surface.xyz, edges.a, edges.b))
 
     for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), bend)
     many = surface.nonmanifold_edges
