@@ -79,24 +79,20 @@ class Surface(Incidence):
     ) -> None:
         self.xyz_given = as_components(points)
         triangles = as_triangles(faces, self.xyz_given.shape[1])
-        repeated = (
-            (triangles[:, 0] == triangles[:, 1])
-            | (triangles[:, 1] == triangles[:, 2])
-            | (triangles[:, 2] == triangles[:, 0])
-        )
+        a, b, c = triangles.T
+        repeated = np.flatnonzero((a == b) | (b == c) | (c == a))
         self.notices = list(notices)
-        if repeated.any():
-            where = np.flatnonzero(repeated)
+        if len(repeated):
+            came_from = np.arange(len(triangles), dtype=np.int32) if polygon is None else polygon
             self.notices.append(
                 Notice.at(
                     "repeated_corner_faces",
-                    where if polygon is None else polygon[where],
+                    came_from[repeated],
                     "[face|faces] with a repeated corner, dropped",
                     "[it has|they have] no area; `curvcli check` refuses such files without --allow no-degenerate",
                 )
             )
-            triangles = np.ascontiguousarray(triangles[~repeated])
-            polygon = np.flatnonzero(~repeated).astype(np.int32) if polygon is None else polygon[~repeated]
+            triangles, polygon = np.delete(triangles, repeated, axis=0), np.delete(came_from, repeated)
             if not len(triangles):
                 raise InputError("no faces: every face has a repeated corner")
         self.faces, self.n_vertices = triangles, self.xyz_given.shape[1]

@@ -18,8 +18,8 @@ _FREE_INFLATION = 1 << 26
 _INFLATION = 100
 
 
-def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) -> BinaryIO:
-    """The file, opened for reading, if it is a regular one.
+def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) -> io.FileIO:
+    """The file, opened for reading without a buffer, if it is a regular one.
 
     Errors: InputError for what is missing, unreadable, too large, or no regular file; no FIFO or device is waited for.
     """
@@ -29,8 +29,8 @@ def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) ->
             raise _irregular(os.stat(path).st_mode)
         descriptor = os.open(path, flags)
     except (OSError, ValueError) as error:
-        raise InputError(_reason(error)) from None
-    file = os.fdopen(descriptor, "rb")
+        raise unreadable(error) from None
+    file = io.FileIO(descriptor)
     status = os.fstat(descriptor)
     if not stat.S_ISREG(status.st_mode):
         file.close()
@@ -41,7 +41,7 @@ def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) ->
     return file
 
 
-def read_limited(file: BinaryIO, max_bytes: int | None) -> bytes:
+def read_limited(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
     """All bytes of a file or stream.
 
     Errors: InputError if it cannot be read, is empty, holds more than max_bytes, or is a file that changes its size
@@ -54,7 +54,7 @@ def read_limited(file: BinaryIO, max_bytes: int | None) -> bytes:
         data = file.read() if whole else _read_up_to(file, sys.maxsize if max_bytes is None else max_bytes + 1)
         after = _size(file, begin)
     except OSError as error:
-        raise InputError(_reason(error)) from None
+        raise unreadable(error) from None
     if max_bytes is not None and len(data) > max_bytes:
         raise _too_large(f"more than {max_bytes} bytes", max_bytes)
     if not data:
@@ -64,7 +64,7 @@ def read_limited(file: BinaryIO, max_bytes: int | None) -> bytes:
     return data
 
 
-def _size(file: BinaryIO, begin: int = 0) -> int | None:
+def _size(file: BinaryIO | io.FileIO, begin: int = 0) -> int | None:
     """How much of a regular file there is from a place on; None for other streams."""
     try:
         status = os.fstat(file.fileno())
@@ -73,7 +73,7 @@ def _size(file: BinaryIO, begin: int = 0) -> int | None:
     return status.st_size - begin if stat.S_ISREG(status.st_mode) else None
 
 
-def _read_up_to(file: BinaryIO, limit: int) -> bytes:
+def _read_up_to(file: BinaryIO | io.FileIO, limit: int) -> bytes:
     # Piece by piece as they come: only between them does Python hear of a signal before it waits again.
     read = getattr(file, "read1", file.read)
     parts = []
@@ -110,6 +110,11 @@ def shown(text: str) -> str:
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def unreadable(error: OSError | ValueError) -> InputError:
+    """What is said of a file that the system does not give."""
+    return InputError(_reason(error))
 
 
 def _reason(error: OSError | ValueError) -> str:

@@ -11,21 +11,23 @@ from ..errors import InputError, Notice
 from ..plurals import agree
 from .limits import check_faces
 from .model import MeshFile
-from .ply_header import TOO_SMALL, Element, Header, parse_header
+from .pieces import Pieces
+from .ply_header import HEADER_END, TOO_SMALL, Element, Header, parse_header
 from .ply_rows import Columns, read_binary_rows
 from .ply_text import read_text_rows
 
 _CORNERS = ("vertex_indices", "vertex_index")
 
 
-def parse_ply(data: bytes, *, max_faces: int | None = None) -> MeshFile:
+def parse_ply(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     """The content of a PLY file.
 
     Scalar properties of vertices and faces are kept, lists other than the corners and other elements are not.
     Triangle strips (`tristrips`, -1 begins a new strip) become triangles of alternating winding.
     Errors: InputError with the line, or the element and row, that cannot be read.
     """
-    header = parse_header(data)
+    header = _header(pieces)
+    pieces.take(header.body)
     by_name = {element.name: element for element in header.elements}
     vertex = by_name.get("vertex")
     scalars = {p.name for p in vertex.properties if p.length is None} if vertex else set()
@@ -36,7 +38,7 @@ def parse_ply(data: bytes, *, max_faces: int | None = None) -> MeshFile:
             _corner_property(by_name[name])
     check_faces(by_name["face"].count if "face" in by_name else 0, max_faces)
     notices: list[Notice] = []
-    content = (read_text_rows if header.ascii else _read_binary)(data, header, notices)
+    content = read_text_rows(pieces.rest(), header, notices) if header.ascii else _read_binary(pieces, header, notices)
     if header.unknown:
         message = "[line|lines] of the header that [begins|begin] with an unknown keyword, ignored"
         place = f"the first is line {header.unknown[0]}"
@@ -53,13 +55,16 @@ def _corner_property(element: Element) -> str:
     raise InputError(f"element `{element.name[:40]}` without a list `vertex_indices` found", place="header")
 
 
-def _read_binary(data: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
-    offset = header.body
-    content = {}
-    for element in header.elements:
-        content[element.name], offset = read_binary_rows(data, offset, element)
-    if offset < len(data):
-        rest = len(data) - offset
+def _header(pieces: Pieces) -> Header:
+    start = pieces.ahead()
+    # What follows the end of the header tells where its line ends.
+    complete = HEADER_END.search(start, 0, len(start) - 1)
+    return parse_header(start if complete else pieces.whole())
+
+
+def _read_binary(pieces: Pieces, header: Header, notices: list[Notice]) -> dict[str, Columns]:
+    content = {element.name: read_binary_rows(pieces, element) for element in header.elements}
+    if rest := pieces.left:
         message = agree(rest, "[byte|bytes] after the announced elements, ignored")
         notices.append(Notice("trailing_data", rest, message, TOO_SMALL))
     return content
@@ -67,15 +72,15 @@ def _read_binary(data: bytes, header: Header, notices: list[Notice]) -> dict[str
 
 def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: list[Notice]) -> MeshFile:
     vertex = content["vertex"].scalars
-    xyz = np.empty((3, elements["vertex"].count))
-    for k, name in enumerate("xyz"):
-        xyz[k] = vertex[name]
+    xyz = content["vertex"].xyz
+    if xyz is None:
+        xyz = np.stack([vertex[axis] for axis in "xyz"], dtype=np.float64)
     corners, sizes, properties = np.empty(0, np.int32), np.empty(0, np.int64), {}
     if "face" in elements and elements["face"].count:
         faces = content["face"]
         sizes, indices = faces.lists[_corner_property(elements["face"])]
         corners = _checked(indices, sizes, "face", xyz.shape[1])
-        properties = {name: _native(values) for name, values in faces.scalars.items()}
+        properties = faces.scalars
         corners, sizes, properties = _without_short(corners, sizes, properties, notices)
     if "tristrips" in elements and elements["tristrips"].count:
         lengths, indices = content["tristrips"].lists[_corner_property(elements["tristrips"])]
@@ -89,15 +94,11 @@ def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: li
         "ply",
         xyz,
         corners,
-        None if (sizes == 3).all() else sizes.astype(np.int32),
-        vertex_properties={name: _native(values) for name, values in vertex.items() if name not in ("x", "y", "z")},
+        None if (_once(sizes) == 3).all() else sizes.astype(np.int32),
+        vertex_properties={name: values for name, values in vertex.items() if name not in ("x", "y", "z")},
         polygon_properties=properties,
         notices=tuple(notices),
     )
-
-
-def _native(values: NDArray[Any]) -> NDArray[np.generic]:
-    return np.ascontiguousarray(values, values.dtype.newbyteorder("="))
 
 
 def _checked(
@@ -121,9 +122,9 @@ def _checked(
 def _without_short(
     corners: NDArray[np.int32], sizes: NDArray[np.int64], properties: dict[str, NDArray[Any]], notices: list[Notice]
 ) -> tuple[NDArray[np.int32], NDArray[np.int64], dict[str, NDArray[Any]]]:
-    keep = sizes >= 3
-    if keep.all():
+    if (_once(sizes) >= 3).all():
         return corners, sizes, properties
+    keep = sizes >= 3
     short = np.flatnonzero(~keep)
     notices.append(
         Notice.at(
@@ -134,6 +135,11 @@ def _without_short(
         )
     )
     return corners[np.repeat(keep, sizes)], sizes[keep], {name: v[keep] for name, v in properties.items()}
+
+
+def _once(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
+    """One of the sizes where they are all the same number, of which there is one in memory."""
+    return sizes[:1] if sizes.strides == (0,) else sizes
 
 
 def strip_triangles(indices: NDArray[Any], lengths: NDArray[np.int64]) -> NDArray[np.int32]:

@@ -32,7 +32,7 @@ _TYPES = {
     "float64": "f8",
 }
 _ORDER = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
-_END = re.compile(rb"[\r\n]end_header[ \t]*(\r\n|\n|\r)")
+HEADER_END = re.compile(rb"[\r\n]end_header[ \t]*(\r\n|\n|\r)")
 _MAGIC = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
 PLY_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]*[\r\n]")
 TOO_SMALL = "if a count in the header is too small, elements are missing"
@@ -45,6 +45,11 @@ class Property:
     name: str
     type: np.dtype[np.generic]
     length: np.dtype[np.generic] | None = None
+
+    @property
+    def native(self) -> np.dtype[np.generic]:
+        """The type in the byte order of this machine."""
+        return self.type.newbyteorder("=")
 
 
 @dataclass(frozen=True)
@@ -84,7 +89,7 @@ def parse_header(data: bytes) -> Header:
     if not magic:
         raise InputError("no PLY header found; a first line `ply` expected", place="line 1")
     newline = magic[1]
-    end = _END.search(data, magic.end() - 1)
+    end = HEADER_END.search(data, magic.end() - 1)
     if not end:
         raise InputError("no `end_header` found, expected at the end of the PLY header")
     # Bytes: of a text also what stands in the middle of letters would end a line or a word.

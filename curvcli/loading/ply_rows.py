@@ -10,106 +10,120 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..plurals import number_of
+from ..slices import slices
+from .pieces import Pieces
 from .ply_header import Element, Property
 
 
 @dataclass
 class Columns:
-    """scalars by name; lists by name as (length of each row, all items one after the other)."""
+    """scalars by name; lists by name as (length of each row, all items one after the other).
+
+    xyz: (3, rows) float64, whose rows are the scalars x, y, z, where they were read as positions.
+    """
 
     scalars: dict[str, NDArray[Any]] = field(default_factory=dict)
     lists: dict[str, tuple[NDArray[np.int64], NDArray[Any]]] = field(default_factory=dict)
+    xyz: NDArray[np.float64] | None = None
 
 
-def read_binary_rows(data: bytes, offset: int, element: Element) -> tuple[Columns, int]:
-    """The columns of an element that begins at `offset`, and where the next element begins.
+def read_binary_rows(pieces: Pieces, element: Element) -> Columns:
+    """The columns of an element, of which all bytes are taken, and no more.
 
     Errors: InputError where the data end early or a list length is negative.
     """
-    if element.least_bytes * element.count > len(data) - offset:
-        room = (len(data) - offset) // element.least_bytes
+    if element.least_bytes * element.count > pieces.left:
+        room = pieces.left // element.least_bytes
         raise InputError(
             f"{number_of(element.count, 'row')} announced, room for at most {room} found", place=element.name
         )
     if not element.count or not element.properties:
-        return empty_columns(element), offset
-    if all(p.length is None for p in element.properties):
-        rows = np.frombuffer(data, _row_type(element, []), element.count, offset)
-        return _columns(element, rows), offset + rows.nbytes
-    lengths = _lengths_at(data, offset, element, 0)
-    kind = _row_type(element, lengths)
-    rows = np.frombuffer(data, kind, min(element.count, (len(data) - offset) // kind.itemsize), offset)
-    same = np.ones(len(rows), np.bool_)
-    for k, p in enumerate(element.properties):
-        if p.length is not None:
-            same &= rows[f"n{k}"] == rows[f"n{k}"][0] if len(rows) else True
-    if len(rows) == element.count and same.all():
-        return _columns(element, rows), offset + rows.nbytes
-    return _read_mixed(data, offset, element)
+        return empty_columns(element)
+    lengths = _first_lengths(pieces.ahead(), element) or _first_lengths(pieces.whole(), element)
+    if lengths is None or (kind := _row_type(element, lengths)).itemsize * element.count > pieces.left:
+        return _read_mixed(pieces, element, 0)
+    columns = _room(element, lengths)
+    for block in slices(element.count, max(pieces.longest // kind.itemsize, 1)):
+        piece = pieces.take(kind.itemsize * (block.stop - block.start))
+        rows = np.frombuffer(piece, kind)
+        if not all((rows[f"n{k}"] == length).all() for k, length in enumerate(lengths) if length is not None):
+            pieces.back(piece)
+            return _joined(columns, block.start, _read_mixed(pieces, element, block.start))
+        for k, p in enumerate(element.properties):
+            if p.length is None:
+                columns.scalars[p.name][block] = rows[f"v{k}"]
+            else:
+                columns.lists[p.name][1].reshape(element.count, -1)[block] = rows[f"v{k}"]
+    return columns
 
 
 def empty_columns(element: Element) -> Columns:
     """The columns of an element without rows."""
     none = np.empty(0, np.int64)
     return Columns(
-        {p.name: np.empty(0, p.type) for p in element.properties if p.length is None},
-        {p.name: (none, np.empty(0, p.type)) for p in element.properties if p.length is not None},
+        {p.name: np.empty(0, p.native) for p in element.properties if p.length is None},
+        {p.name: (none, np.empty(0, p.native)) for p in element.properties if p.length is not None},
     )
 
 
-def _row_type(element: Element, lengths: list[int]) -> np.dtype[Any]:
-    """A row whose lists have the given lengths; fields by number, as names in the file may repeat."""
-    fields: list[Any] = []
-    remaining = iter(lengths)
-    for k, p in enumerate(element.properties):
+def _first_lengths(data: bytes, element: Element) -> list[int | None] | None:
+    """The lengths of the lists of the first row, None for what is no list; None if the data do not hold that row."""
+    lengths: list[int | None] = []
+    offset = 0
+    for p in element.properties:
+        length = None
         if p.length is not None:
-            fields.append((f"n{k}", p.length))
-            fields.append((f"v{k}", p.type, (next(remaining),)))
-        else:
+            if offset + p.length.itemsize > len(data) or (length := _reader(data, p)(offset)) < 0:
+                return None
+            offset += p.length.itemsize
+        offset += p.type.itemsize * (1 if length is None else length)
+        lengths.append(length)
+    return lengths if offset <= len(data) else None
+
+
+def _row_type(element: Element, lengths: list[int | None]) -> np.dtype[Any]:
+    """A row whose lists have the given lengths; fields by number, as names in the file may be odd."""
+    fields: list[Any] = []
+    for k, (p, length) in enumerate(zip(element.properties, lengths, strict=True)):
+        if length is None:
             fields.append((f"v{k}", p.type))
+        else:
+            fields += [(f"n{k}", p.length), (f"v{k}", p.type, (length,))]
     return np.dtype(fields)
 
 
-def _columns(element: Element, rows: NDArray[Any]) -> Columns:
+def _room(element: Element, lengths: list[int | None]) -> Columns:
+    """Columns to be filled, for rows whose lists have the given lengths."""
     columns = Columns()
-    for k, p in enumerate(element.properties):
-        if p.length is None:
-            columns.scalars[p.name] = rows[f"v{k}"]
+    for p, length in zip(element.properties, lengths, strict=True):
+        if length is None:
+            columns.scalars[p.name] = np.empty(element.count, p.native)
         else:
-            items = rows[f"v{k}"]
-            columns.lists[p.name] = (np.broadcast_to(np.int64(items.shape[1]), len(rows)), items.reshape(-1))
+            items = np.empty(element.count * length, p.native)
+            columns.lists[p.name] = np.broadcast_to(np.int64(length), element.count), items
+    if element.name == "vertex" and columns.scalars.keys() >= {"x", "y", "z"}:
+        columns.xyz = np.empty((3, element.count))
+        columns.scalars.update(zip("xyz", columns.xyz, strict=True))
     return columns
 
 
-def _lengths_at(data: bytes, offset: int, element: Element, row: int) -> list[int]:
-    """The list lengths of the row that begins at `offset`."""
-    lengths = []
-    for p in element.properties:
-        if p.length is None:
-            offset += p.type.itemsize
-            continue
-        length = _length(data, offset, p, element, row)
-        lengths.append(length)
-        offset += p.length.itemsize + length * p.type.itemsize
-    if offset > len(data):
-        raise InputError("the data end inside a row", place=f"{element.name} {row}")
-    return lengths
+def _joined(begin: Columns, rows: int, rest: Columns) -> Columns:
+    """The first rows of some columns, and the rest of them."""
+    joined = Columns({name: np.concatenate((begin.scalars[name][:rows], rest.scalars[name])) for name in rest.scalars})
+    for name, (lengths, items) in rest.lists.items():
+        before = begin.lists[name][0][:rows]
+        kept = begin.lists[name][1][: int(before.sum())]
+        joined.lists[name] = np.concatenate((before, lengths)), np.concatenate((kept, items))
+    return joined
 
 
-def _length(data: bytes, offset: int, p: Property, element: Element, row: int) -> int:
-    assert p.length is not None
-    end = offset + p.length.itemsize
-    if end > len(data):
-        raise InputError("the data end inside a row", place=f"{element.name} {row}")
-    length = int(_reader(data, p)(offset))
-    if length < 0:
-        raise InputError(f"list length {length} found, 0 or more expected", place=f"{element.name} {row}")
-    return length
+def _read_mixed(pieces: Pieces, element: Element, first: int) -> Columns:
+    """The rows from the first on, whose lists differ in length.
 
-
-def _read_mixed(data: bytes, offset: int, element: Element) -> tuple[Columns, int]:
-    """Rows whose lists differ in length: each row's place is known only from the row before, so this is the one walk
-    from row to row; what it finds is then gathered at once."""
+    Each row's place is known only from the row before, so this is the one walk from row to row; what it finds is then
+    gathered at once.
+    """
+    data, offset = pieces.whole(), 0
     properties = element.properties
     lists = [k for k, p in enumerate(properties) if p.length is not None]
     begins: list[list[int]] = [[] for _ in lists]
@@ -127,12 +141,12 @@ def _read_mixed(data: bytes, offset: int, element: Element) -> tuple[Columns, in
     readers = [_reader(data, properties[k]) for k in lists]
     widths = [(properties[k].length.itemsize, properties[k].type.itemsize) for k in lists]  # type: ignore[union-attr]
     steps = list(zip(before, readers, widths, begins, counts, strict=True))
-    for row in range(element.count):
+    for row in range(first, element.count):
         row_starts.append(offset)
         for gap, read, (head, item), begin, count in steps:
             offset += gap
             if offset + head > size:
-                raise InputError("the data end inside a row", place=f"{element.name} {row}")
+                raise _cut_off(element, first, row_starts, size)
             length = read(offset)
             if length < 0:
                 raise InputError(f"list length {length} found, 0 or more expected", place=f"{element.name} {row}")
@@ -142,9 +156,14 @@ def _read_mixed(data: bytes, offset: int, element: Element) -> tuple[Columns, in
             offset += length * item
         offset += after
     if offset > size:
-        row = int(np.searchsorted(row_starts, size))
-        raise InputError("the data end inside a row", place=f"{element.name} {max(row - 1, 0)}")
-    return _gather(data, element, np.array(row_starts), begins, counts), offset
+        raise _cut_off(element, first, row_starts, size)
+    pieces.take(offset)
+    return _gather(data, element, np.array(row_starts, np.int64), begins, counts)
+
+
+def _cut_off(element: Element, first: int, row_starts: list[int], size: int) -> InputError:
+    row = first + int(np.searchsorted(row_starts, size, side="right")) - 1
+    return InputError("the data end inside a row", place=f"{element.name} {row}")
 
 
 def _reader(data: bytes, p: Property) -> Any:
@@ -177,4 +196,4 @@ def _items(data: bytes, at: NDArray[np.int64], p: Property) -> NDArray[Any]:
     """The items that begin at the given bytes."""
     width = p.type.itemsize
     windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), width)
-    return np.ascontiguousarray(windows[at]).view(p.type).reshape(-1)
+    return np.ascontiguousarray(windows[at]).view(p.type).reshape(-1).astype(p.native, copy=False)

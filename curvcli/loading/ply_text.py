@@ -25,19 +25,18 @@ from .text import (
 )
 
 
-def read_text_rows(data: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
-    """The columns of all elements.
+def read_text_rows(text: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
+    """The columns of all elements, from what follows the header.
 
     Errors: InputError with the line of a row that cannot be read.
     """
     for element in header.elements:
-        if element.count * max(2 * len(element.properties), 1) - 1 > len(data) - header.body:
+        if element.count * max(2 * len(element.properties), 1) - 1 > len(text):
             raise InputError(
-                f"{number_of(element.count, 'row')} announced, more than the {len(data) - header.body} bytes that "
-                "follow can hold",
+                f"{number_of(element.count, 'row')} announced, more than the {len(text)} bytes that follow can hold",
                 place=element.name,
             )
-    body = plain_lines(data[header.body :])
+    body = plain_lines(text)
     try:
         return _read(body, header, notices, None)
     except Untidy:
@@ -170,7 +169,6 @@ def _typed(values: NDArray[Any], p: Property) -> NDArray[Any]:
     """Whole numbers in the announced type if they fit, fractions as they are written (a double)."""
     if p.type.kind == "f":
         return values.astype(np.float64, copy=False)
-    kind = p.type.newbyteorder("=")
     with np.errstate(invalid="ignore"):
-        typed = values.astype(kind, copy=False)
+        typed = values.astype(p.native, copy=False)
     return typed if (typed == values).all() else values

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 import importlib
 import io
 import os
+import sys
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
+from contextlib import ExitStack
 from dataclasses import replace
 from typing import Any, BinaryIO, Generic, TypeVar
 
@@ -16,6 +17,7 @@ from ..memory import require_polars
 from .content import inflate, open_regular, read_limited, shown
 from .limits import check_faces
 from .model import MeshFile
+from .pieces import Pieces
 from .recognise import FORMATS, format_of_name, recognise
 from .text import SMALL
 
@@ -84,42 +86,40 @@ def _read(
     max_bytes: int | None,
     normals: str,
 ) -> Made:
-    with ThreadPoolExecutor(3) as pool:
-        # Imported while the file is read, and before trimesh: polars parses outside the interpreter, which only one
-        # import at a time can have.
-        importing: list[Future[None]] = []
+    with ExitStack() as stack:
+        raw: io.FileIO | bytes
         if isinstance(source, str | bytes | os.PathLike):
-            with open_regular(source, max_bytes) as file:
-                wanted = wanted or format_of_name(path)
-                if (size := os.fstat(file.fileno()).st_size) > SMALL:
-                    importing.append(pool.submit(_import_polars, size))
-                raw = read_limited(file, max_bytes)
+            raw = stack.enter_context(open_regular(source, max_bytes))
+            wanted = wanted or format_of_name(path)
         else:
             raw = read_limited(source, max_bytes)
-        digest = pool.submit(_sha256, raw)
-        data = inflate(raw, max_bytes) if raw[:2] == b"\x1f\x8b" else raw
-        kind, notices = recognise(data, wanted)
-        size = len(data)
-        # Nobody else holds on to the bytes: their memory serves for what is made of the mesh.
-        parsed = [data]
-        del raw, data
+        hashed = stack.enter_context(Pieces(raw))
+        del raw
+        pool = stack.enter_context(ThreadPoolExecutor(2))
+        importing = []
+        if "trimesh" not in sys.modules and hashed.size > SMALL:
+            # Before trimesh: polars parses outside the interpreter, which only one import at a time can have. Those who
+            # take all bytes at once wait for it least often, and the memory of the bytes serves for what follows.
+            importing.append(pool.submit(_import_polars, hashed.size))
+            hashed.whole()
+        pieces = hashed
+        if hashed.ahead()[:2] == b"\x1f\x8b":
+            pieces = stack.enter_context(Pieces(inflate(hashed.rest(), max_bytes), hashed=False))
+        if not pieces.size:
+            raise InputError("no data found, a mesh expected")
+        kind, notices = recognise(pieces, wanted)
 
         def content() -> Made:
-            mesh = _parse(parsed.pop(), kind, weld, max_faces, normals)
+            mesh = _parse(pieces, kind, weld, max_faces, normals)
+            pieces.clear()
             check_faces(mesh.polygons, max_faces)
             merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
             notes = (*notices, *mesh.notices)
-            return make(replace(mesh, path=shown(path), sha256=digest.result(), weld=merged, notices=notes))
+            return make(replace(mesh, path=shown(path), sha256=hashed.sha256(), weld=merged, notices=notes))
 
         made = pool.submit(content)  # made while trimesh is imported
-        if not importing and size > SMALL:
-            importing.append(pool.submit(_import_polars, size))
         wait(importing)
         return _through_trimesh(made, kind)
-
-
-def _sha256(raw: bytes) -> str:
-    return hashlib.sha256(raw).hexdigest()
 
 
 def _import_polars(data: int) -> None:
@@ -159,25 +159,25 @@ def _load(file_obj: _Content[Any], **_: Any) -> dict[str, Any]:
     return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": file_obj.made.result()}}
 
 
-def _parse(data: bytes, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
+def _parse(pieces: Pieces, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
     """The content of a file of a known kind, equal positions merged where that is asked for."""
     import numpy as np
 
     from .weld import welded
 
     with np.errstate(invalid="ignore"):  # signalling NaNs; who uses a NaN refuses it
-        return welded(_content(data, kind, weld, max_faces, normals), weld)
+        return welded(_content(pieces, kind, weld, max_faces, normals), weld)
 
 
-def _content(data: bytes, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
+def _content(pieces: Pieces, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
     if kind == "obj":
         from .obj import parse_obj
 
-        return parse_obj(data, max_faces=max_faces, normals=normals == "file")
+        return parse_obj(pieces.rest(), max_faces=max_faces, normals=normals == "file")
     if kind == "ply":
         from .ply import parse_ply
 
-        return parse_ply(data, max_faces=max_faces)
+        return parse_ply(pieces, max_faces=max_faces)
     from .stl import parse_stl
 
-    return parse_stl(data, weld=weld != "none", max_faces=max_faces)
+    return parse_stl(pieces, weld=weld != "none", max_faces=max_faces)

@@ -6,8 +6,9 @@ import os
 import re
 
 from ..errors import InputError, Notice
+from .pieces import Pieces
 from .ply_header import PLY_SIGN
-from .stl import ASCII_SIGN, announced_size
+from .stl import ASCII_SIGN, is_binary_stl
 
 FORMATS = ("obj", "ply", "stl")
 """The promised formats, which are also the suffixes; each may be followed by .gz."""
@@ -52,15 +53,17 @@ def format_of_name(path: str) -> str:
     )
 
 
-def recognise(data: bytes, wanted: str | None) -> tuple[str, tuple[Notice, ...]]:
+def recognise(pieces: Pieces, wanted: str | None) -> tuple[str, tuple[Notice, ...]]:
     """The format of the content, and a notice where it is not the wanted one.
 
     wanted: what the name says, None if it says nothing. Errors: InputError for content that cannot be recognised.
     """
-    _refuse_what_is_known(data)
-    if wanted in ("ply", "stl") and _bears_sign(data, wanted):
+    start = pieces.ahead()
+    if not is_binary_stl(start, pieces.size):  # its first 80 bytes are free
+        _refuse_what_is_known(start)
+    if wanted in ("ply", "stl") and _bears_sign(pieces, wanted):
         return wanted, ()
-    found = next((kind for kind in ("ply", "stl", "obj") if kind != wanted and _bears_sign(data, kind)), None)
+    found = next((kind for kind in ("ply", "stl", "obj") if kind != wanted and _bears_sign(pieces, kind)), None)
     if found is None:
         if wanted is None:
             raise InputError("content not recognised", hint=f"--input-format {'|'.join(FORMATS)} names the format")
@@ -73,8 +76,6 @@ def recognise(data: bytes, wanted: str | None) -> tuple[str, tuple[Notice, ...]]
 
 def _refuse_what_is_known(data: bytes) -> None:
     """Refuses content that is known to be something else, of which a part might be read as a mesh."""
-    if len(data) >= 84 and announced_size(data) == len(data):
-        return  # binary STL, whose first 80 bytes are free
     for sign, what in _ARCHIVES.items():
         if data.startswith(sign):
             raise InputError(f"{what} found, a mesh expected", hint="unpack it first")
@@ -89,11 +90,13 @@ def _refuse_what_is_known(data: bytes) -> None:
         )
 
 
-def _bears_sign(data: bytes, kind: str) -> bool:
+def _bears_sign(pieces: Pieces, kind: str) -> bool:
+    start = pieces.ahead()
     if kind == "ply":
-        return bool(PLY_SIGN.match(data))
+        return bool(PLY_SIGN.match(start))
     if kind == "stl":
-        if len(data) >= 84 and announced_size(data) == len(data):
-            return True
-        return bool(ASCII_SIGN.match(data)) and b"facet" in data[:65536].lower()
-    return bool(_V_LINE.search(data, 0, 1 << 16)) and (b"\nf " in data or b"\rf " in data or b"\nf\t" in data)
+        return is_binary_stl(start, pieces.size) or (bool(ASCII_SIGN.match(start)) and b"facet" in start.lower())
+    if not _V_LINE.search(start):
+        return False
+    data = pieces.whole()
+    return b"\nf " in data or b"\rf " in data or b"\nf\t" in data

@@ -9,33 +9,40 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
 from ..plurals import agree, number_of
+from ..slices import slices
 from .limits import check_faces
 from .model import MeshFile
+from .pieces import Pieces
 from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy, without_comments
 from .weld import weld_exact
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
+_TEXT = "it is text, and text that is STL begins with `solid`"
 _KEYWORD = re.compile(rb"(?<![ \n])[ \n]+(endsolid|facet|outer|vertex|endloop|endfacet)\b", re.IGNORECASE)
 _SHARED_LINE = re.compile(rb"[^\n] (?:facet|vertex)\b", re.IGNORECASE)
 ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+solid\b", re.IGNORECASE)
 
 
-def parse_stl(data: bytes, *, weld: bool = True, max_faces: int | None = None) -> MeshFile:
+def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None) -> MeshFile:
     """The content of an STL file: one vertex per distinct position in order of first appearance, or one per corner.
 
     Positions are exactly those of the file (float32 in binary files); normals and attributes are ignored.
     Errors: InputError where data are missing or a facet has not three vertices.
     """
-    as_text = is_ascii_stl(data)
-    xyz, notices = _read_ascii(data, max_faces) if as_text else _read_binary(data, max_faces)
-    if not xyz.shape[1]:
-        hint = "a surface needs at least one facet"
-        if as_text and b"\0" in data:
+    xyz: NDArray[np.float32] | NDArray[np.float64]
+    hint = "a surface needs at least one facet"
+    if not is_binary_stl(pieces.ahead(), pieces.size) and ASCII_SIGN.match(pieces.whole()):
+        data = pieces.rest()
+        if b"\0" in data:
             hint = (
                 "it begins with `solid` as text does, and as binary STL its counter asks for "
-                f"{announced_size(data)} bytes, not {len(data)}"
+                f"{_announced_size(data)} bytes, not {len(data)}"
             )
+        xyz, notices = _read_ascii(data, max_faces)
+    else:
+        xyz, notices = _read_binary(pieces, max_faces)
+    if not xyz.shape[1]:
         raise InputError("no faces", hint=hint)
     if weld:
         first, corners = weld_exact(xyz)
@@ -45,37 +52,43 @@ def parse_stl(data: bytes, *, weld: bool = True, max_faces: int | None = None) -
     return MeshFile("stl", np.ascontiguousarray(xyz, np.float64), corners, notices=notices)
 
 
-def announced_size(data: bytes) -> int:
+def is_binary_stl(start: bytes, size: int) -> bool:
+    """Whether content of this size, with this start, is as long as the counter of binary STL says.
+
+    That decides, whatever the header says; other content may be cut off, or text (`ASCII_SIGN`).
+    """
+    return size >= _HEADER and _announced_size(start) == size
+
+
+def _announced_size(start: bytes | memoryview) -> int:
     """The size of a binary STL file with the number of facets that the counter holds."""
-    return _HEADER + 50 * int.from_bytes(data[80:_HEADER], "little")
+    return _HEADER + 50 * int.from_bytes(start[80:_HEADER], "little")
 
 
-def is_ascii_stl(data: bytes) -> bool:
-    """Whether the content is ASCII STL; a size that fits the counter decides for binary, whatever the header says."""
-    if len(data) >= _HEADER and len(data) == announced_size(data):
-        return False
-    return bool(ASCII_SIGN.match(data))
-
-
-def _read_binary(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float32], tuple[Notice, ...]]:
-    if len(data) < _HEADER:
+def _read_binary(pieces: Pieces, max_faces: int | None) -> tuple[NDArray[np.float32], tuple[Notice, ...]]:
+    size = pieces.left
+    if size < _HEADER:
         raise InputError(
-            f"{number_of(len(data), 'byte')} found, at least {_HEADER} expected, or text that begins with `solid`"
+            f"{number_of(size, 'byte')} found, at least {_HEADER} expected, or text that begins with `solid`"
         )
-    count = (announced_size(data) - _HEADER) // 50
-    missing = announced_size(data) - len(data)
+    header = pieces.take(_HEADER)
+    count = (_announced_size(header) - _HEADER) // 50
+    missing = _announced_size(header) - size
     if missing > 0:
         raise InputError(
-            f"{number_of(count, 'facet')} announced, room for {(len(data) - _HEADER) // 50} found: "
+            f"{number_of(count, 'facet')} announced, room for {(size - _HEADER) // 50} found: "
             f"{number_of(missing, 'byte')} {agree(missing, '[is|are]')} missing",
             place="byte 80",
-            hint=None if b"\0" in data else "it is text, and text that is STL begins with `solid`",
+            hint=None
+            if b"\0" in bytes(header) + pieces.whole()
+            else "it is text, and text that is STL begins with `solid`",
         )
     check_faces(count, max_faces)
-    facets = np.frombuffer(data, _FACET, count, _HEADER)
     xyz = np.empty((3, 3 * count), np.float32)
-    for k in range(3):
-        xyz[k].reshape(-1, 3)[:] = facets["corners"][:, :, k]
+    for block in slices(count, max(pieces.longest // _FACET.itemsize, 1)):
+        facets = np.frombuffer(pieces.take(_FACET.itemsize * (block.stop - block.start)), _FACET)
+        for k in range(3):
+            xyz[k].reshape(-1, 3)[block] = facets["corners"][:, :, k]
     message = agree(-missing, "[byte|bytes] after the announced facets, ignored")
     trailing = Notice("trailing_data", -missing, message, "if the count at byte 80 is too small, facets are missing")
     return xyz, (trailing,) if missing < 0 else ()

@@ -7,17 +7,22 @@ import os
 import socket
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import curvcli
-from curvcli.loading import content
+from curvcli.loading.pieces import Pieces
 from tests.cli.program import environment, served
 from tests.fuzz.contract import in_process
+from tests.loading.spelling import binary_stl
+from tests.loading.test_ply import binary_ply
+from tests.loading.test_stl import TETRAHEDRON
 
 OBJ = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+SOUND = {"obj": OBJ, "ply": binary_ply([(0, 1, 2), (0, 2, 3)]), "stl": binary_stl(TETRAHEDRON)}
 BROKEN = OBJ + b"f 1 2 9\n"
 
 
@@ -189,36 +194,42 @@ def test_files_that_may_not_be_read(tmp_path: Path) -> None:
     assert err == f"curvcli: {path}: the file may not be read (permission denied)\n"
 
 
-@pytest.mark.parametrize("left", [0, 1, 30, len(OBJ) - 3])
-def test_files_that_shrink_while_they_are_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, left: int) -> None:
-    path = tmp_path / "mesh.obj"
-    path.write_bytes(OBJ)
-    true_size = content._size
+def after_it_was_opened(monkeypatch: pytest.MonkeyPatch, change: Callable[[], None]) -> None:
+    """Let the file change as soon as its size is known."""
+    begin = Pieces.__init__
 
-    def shrinking(*arguments: Any) -> Any:
-        size = true_size(*arguments)
-        os.truncate(path, left)
-        return size
+    def changing(self: Pieces, *arguments: Any, **options: Any) -> None:
+        begin(self, *arguments, **options)
+        change()
 
-    monkeypatch.setattr(content, "_size", shrinking)
+    monkeypatch.setattr(Pieces, "__init__", changing)
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl"])
+@pytest.mark.parametrize("left", [0, 1, 30, -3])
+def test_files_that_shrink_while_they_are_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str, left: int
+) -> None:
+    path = tmp_path / f"mesh.{kind}"
+    path.write_bytes(SOUND[kind])
+    after_it_was_opened(monkeypatch, lambda: os.truncate(path, left % len(SOUND[kind])))
     code, out, err = here(str(path), "--json")
     assert (code, out) == (3, b"")
     assert one_line(err)
-    assert err.startswith(f"curvcli: {path}: ")
-    assert "the file changed while it was read" in err or left == 0
+    assert err.startswith(f"curvcli: {path}: {len(SOUND[kind])} bytes expected, {left % len(SOUND[kind])} read: the fi")
+    assert "the file changed while it was read" in err
 
 
-def test_files_that_grow_while_they_are_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "mesh.obj"
-    path.write_bytes(OBJ)
-    true_size = content._size
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl"])
+def test_files_that_grow_while_they_are_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str) -> None:
+    path = tmp_path / f"mesh.{kind}"
+    path.write_bytes(SOUND[kind])
 
-    def growing(*arguments: Any) -> Any:
+    def grow() -> None:
         with path.open("ab") as file:
             file.write(b"# more\n")
-        return true_size(*arguments)
 
-    monkeypatch.setattr(content, "_size", growing)
+    after_it_was_opened(monkeypatch, grow)
     code, out, err = here(str(path), "--json")
     assert (code, out) == (3, b"")
     assert "the file changed while it was read" in err

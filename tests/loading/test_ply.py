@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from curvcli.errors import InputError
 from curvcli.loading import text
-from curvcli.loading.ply import parse_ply
 from curvcli.loading.ply_header import parse_header
+from tests.loading.parsing import parsed
 from tests.loading.spelling import PLY_NAMES, Meant, meant, ply_file, polygons, same
 
 HEAD = """ply
@@ -43,7 +43,7 @@ def binary_ply(faces: list[tuple[int, ...]], order: str = "little") -> bytes:
 
 
 def codes(data: bytes) -> dict[str, int]:
-    return {notice.code: notice.count for notice in parse_ply(data).notices}
+    return {notice.code: notice.count for notice in parsed("ply", data).notices}
 
 
 @given(st.data(), meant(), st.booleans())
@@ -52,7 +52,7 @@ def test_every_spelling_means_the_same_mesh(data: st.DataObject, mesh: Meant, la
     with pytest.MonkeyPatch.context() as patch:
         if large:
             patch.setattr(text, "SMALL", -1)
-        read = parse_ply(spelt)
+        read = parsed("ply", spelt)
     same(read, mesh)
     if "mark" in read.vertex_properties:
         assert read.vertex_properties["mark"].tolist() == [1000 + k for k in range(len(mesh.points))]
@@ -63,7 +63,7 @@ def test_every_spelling_means_the_same_mesh(data: st.DataObject, mesh: Meant, la
 
 @given(st.data(), meant(triangles=True, single=True))
 def test_float32_positions_are_kept_exactly(data: st.DataObject, mesh: Meant) -> None:
-    same(parse_ply(data.draw(ply_file(mesh, "f4"))), mesh)
+    same(parsed("ply", data.draw(ply_file(mesh, "f4"))), mesh)
 
 
 @pytest.mark.parametrize("kind", sorted(PLY_NAMES))
@@ -76,7 +76,7 @@ def test_every_scalar_type(kind: str, order: str) -> None:
         )
         value = np.array(-3 if kind[0] in "if" else 200, order + kind)
         body = b"".join(struct.pack(order + "3f", *p) + value.tobytes() for p in POINTS)
-        mesh = parse_ply(head.encode() + body + struct.pack(order + "B3i", 3, 0, 1, 2))
+        mesh = parsed("ply", head.encode() + body + struct.pack(order + "B3i", 3, 0, 1, 2))
         assert mesh.vertex_properties["extra"].tolist() == [value] * 4
         assert mesh.vertex_properties["extra"].dtype == np.dtype(kind)
 
@@ -84,7 +84,7 @@ def test_every_scalar_type(kind: str, order: str) -> None:
 @pytest.mark.parametrize("order", ["little", "big"])
 def test_mixed_polygons_in_binary(order: str) -> None:
     faces = [(0, 1, 2), (0, 1, 2, 3), (3, 2, 1), (0, 1, 2, 3, 0, 1)] * 5
-    mesh = parse_ply(binary_ply(faces, order))
+    mesh = parsed("ply", binary_ply(faces, order))
     assert polygons(mesh) == faces
 
 
@@ -94,7 +94,7 @@ def test_several_lists_of_differing_lengths() -> None:
     )
     body = b"".join(struct.pack(">3f", *p) for p in POINTS)
     body += struct.pack(">B3iH2dh", 3, 0, 1, 2, 2, 0.5, 1.5, -7) + struct.pack(">B4iHh", 4, 0, 1, 2, 3, 0, 300)
-    mesh = parse_ply(head.encode() + body)
+    mesh = parsed("ply", head.encode() + body)
     assert polygons(mesh) == [(0, 1, 2), (0, 1, 2, 3)]
     assert mesh.polygon_properties["part"].tolist() == [-7, 300]
 
@@ -119,45 +119,45 @@ end_header
 
 def test_triangle_strips_alternate_and_restart() -> None:
     data = STRIPS.format(rows=1) + "11 0 1 2 3 -1 2 3 4 5 -1 5\n"
-    assert polygons(parse_ply(data.encode())) == [(0, 1, 2), (2, 1, 3), (2, 3, 4), (4, 3, 5)]
+    assert polygons(parsed("ply", data.encode())) == [(0, 1, 2), (2, 1, 3), (2, 3, 4), (4, 3, 5)]
 
 
 def test_triangle_strips_end_with_their_row() -> None:
     data = STRIPS.format(rows=3) + "4 0 1 2 3\n2 4 5\n3 3 4 5\n"
-    assert polygons(parse_ply(data.encode())) == [(0, 1, 2), (2, 1, 3), (3, 4, 5)]
+    assert polygons(parsed("ply", data.encode())) == [(0, 1, 2), (2, 1, 3), (3, 4, 5)]
 
 
 def test_triangle_strips_in_binary_agree_with_text() -> None:
     strip = [0, 1, 2, 3, -1, 2, 3, 4, 5]
     written = STRIPS.format(rows=1).replace("ascii", "binary_little_endian").partition("end_header\n")
     body = b"".join(struct.pack("<3f", k % 2, k // 2, 0) for k in range(6)) + struct.pack("<i9i", 9, *strip)
-    mesh = parse_ply((written[0] + written[1]).encode() + body)
+    mesh = parsed("ply", (written[0] + written[1]).encode() + body)
     assert polygons(mesh) == [(0, 1, 2), (2, 1, 3), (2, 3, 4), (4, 3, 5)]
 
 
 def test_ascii_fractions_stay_as_written() -> None:
     data = ascii_ply("3 0 1 2\n").replace(b"1 1 0\n", b"0.1 1e-40 3.4e39\n")
-    assert parse_ply(data).xyz[:, 2].tolist() == [0.1, 1e-40, 3.4e39]
+    assert parsed("ply", data).xyz[:, 2].tolist() == [0.1, 1e-40, 3.4e39]
 
 
 def test_old_line_ends() -> None:
-    assert polygons(parse_ply(ascii_ply("3 0 1 2\n").replace(b"\n", b"\r"))) == [(0, 1, 2)]
+    assert polygons(parsed("ply", ascii_ply("3 0 1 2\n").replace(b"\n", b"\r"))) == [(0, 1, 2)]
     data = binary_ply([(0, 1, 2)])
     head, sign, body = data.partition(b"end_header\n")
-    assert polygons(parse_ply((head + sign).replace(b"\n", b"\r") + body)) == [(0, 1, 2)]
+    assert polygons(parsed("ply", (head + sign).replace(b"\n", b"\r") + body)) == [(0, 1, 2)]
     mixed = (head + sign).replace(b"\n", b"\r\n") + body
-    assert polygons(parse_ply(mixed)) == [(0, 1, 2)]
+    assert polygons(parsed("ply", mixed)) == [(0, 1, 2)]
 
 
 def test_empty_lines_and_blanks_in_the_body() -> None:
     data = ascii_ply("3 0 1 2 \n").replace(b"1 1 0\n", b"\n  1\t1   0\n\n")
-    same(parse_ply(data), Meant(POINTS, [(0, 1, 2)]))
+    same(parsed("ply", data), Meant(POINTS, [(0, 1, 2)]))
 
 
 @pytest.mark.parametrize("small", [-1, 1 << 16])
 def test_rows_with_more_values_than_announced_are_counted(small: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(text, "SMALL", small)
-    mesh = parse_ply(ascii_ply("3 0 1 2 9 9\n3 0 2 3\n"))
+    mesh = parsed("ply", ascii_ply("3 0 1 2 9 9\n3 0 2 3\n"))
     assert polygons(mesh) == [(0, 1, 2), (0, 2, 3)]
     (notice,) = mesh.notices
     assert (notice.code, notice.count) == ("extra_values", 1)
@@ -173,7 +173,7 @@ def test_short_faces_and_trailing_data_are_counted() -> None:
 
 def refused(data: bytes) -> str:
     with pytest.raises(InputError) as error:
-        parse_ply(data)
+        parsed("ply", data)
     message = str(error.value)
     assert "\n" not in message
     return message
@@ -258,13 +258,13 @@ class TestRefused:
 
     def test_more_faces_than_allowed(self) -> None:
         with pytest.raises(InputError, match="2 faces found, at most 1 allowed"):
-            parse_ply(ascii_ply("3 0 1 2\n3 0 2 3\n"), max_faces=1)
+            parsed("ply", ascii_ply("3 0 1 2\n3 0 2 3\n"), max_faces=1)
 
 
 def test_properties_that_are_not_numbers_as_some_libraries_write_them() -> None:
     header = ascii_ply("3 0 1 2\n").decode().partition("end_header\n")[0].replace("vertex 4", "vertex 3")
     header = header.replace("property float x", "property float quality\nproperty float x")
-    mesh = parse_ply((header + "end_header\n-1.#IND 0 0 0\n1.#INF 1 0 0\n-nan(ind) 0 1 0\n3 0 1 2\n").encode())
+    mesh = parsed("ply", (header + "end_header\n-1.#IND 0 0 0\n1.#INF 1 0 0\n-nan(ind) 0 1 0\n3 0 1 2\n").encode())
     np.testing.assert_array_equal(mesh.vertex_properties["quality"], [np.nan, np.inf, np.nan])
     assert mesh.xyz.T.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 
@@ -273,8 +273,8 @@ def test_a_comment_without_its_keyword_in_the_header() -> None:
     """As an old exporter writes them; what belongs to no element can be no loss."""
     for data in (ascii_ply("3 0 1 2\n"), binary_ply([(0, 1, 2)])):
         before, after = data.split(b"element vertex", 1)
-        mesh = parse_ply(before + b"Created by hand: a.b\nComment no\nelement vertex" + after)
-        np.testing.assert_array_equal(mesh.xyz, parse_ply(data).xyz)
+        mesh = parsed("ply", before + b"Created by hand: a.b\nComment no\nelement vertex" + after)
+        np.testing.assert_array_equal(mesh.xyz, parsed("ply", data).xyz)
         assert mesh.corners.tolist() == [0, 1, 2]
         (notice,) = mesh.notices
         assert (notice.code, notice.count, notice.hint) == ("unknown_statements", 2, "the first is line 3")

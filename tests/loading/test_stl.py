@@ -12,7 +12,7 @@ from hypothesis.extra.numpy import arrays
 
 from curvcli.errors import InputError
 from curvcli.loading import text
-from curvcli.loading.stl import parse_stl
+from tests.loading.parsing import parsed
 from tests.loading.spelling import ascii_stl, binary_stl
 
 TETRAHEDRON = np.array(
@@ -34,19 +34,19 @@ singles = arrays(
 
 
 def codes(data: bytes) -> dict[str, int]:
-    return {notice.code: notice.count for notice in parse_stl(data).notices}
+    return {notice.code: notice.count for notice in parsed("stl", data).notices}
 
 
 def refused(data: bytes) -> str:
     with pytest.raises(InputError) as error:
-        parse_stl(data)
+        parsed("stl", data)
     assert "\n" not in str(error.value)
     return str(error.value)
 
 
 @given(singles, st.booleans())
 def test_binary_positions_are_exactly_those_of_the_file(corners: np.ndarray, weld: bool) -> None:
-    mesh = parse_stl(binary_stl(corners), weld=weld)
+    mesh = parsed("stl", binary_stl(corners), weld=weld)
     np.testing.assert_array_equal(mesh.xyz[:, mesh.corners].T, corners.reshape(-1, 3).astype(float))
     distinct = list(dict.fromkeys(map(tuple, (corners.reshape(-1, 3) + np.float32(0)).tolist())))
     assert mesh.xyz.shape[1] == (len(distinct) if weld else corners.size // 3)
@@ -59,51 +59,51 @@ def test_ascii_says_the_same_as_binary(corners: np.ndarray, end: str, upper: boo
     with pytest.MonkeyPatch.context() as patch:
         if large:
             patch.setattr(text, "SMALL", -1)
-        mesh = parse_stl(ascii_stl(corners, end=end, upper=upper, indent=indent))
-    twin = parse_stl(binary_stl(corners))
+        mesh = parsed("stl", ascii_stl(corners, end=end, upper=upper, indent=indent))
+    twin = parsed("stl", binary_stl(corners))
     np.testing.assert_array_equal(mesh.xyz, twin.xyz)
     np.testing.assert_array_equal(mesh.corners, twin.corners)
 
 
 def test_ascii_numbers_are_doubles() -> None:
-    assert parse_stl(ascii_stl(TETRAHEDRON * 0.1)).xyz.max() == 0.1
+    assert parsed("stl", ascii_stl(TETRAHEDRON * 0.1)).xyz.max() == 0.1
 
 
 def test_rows_come_in_order_of_first_appearance() -> None:
-    assert parse_stl(binary_stl(TETRAHEDRON)).corners.tolist() == CORNERS
+    assert parsed("stl", binary_stl(TETRAHEDRON)).corners.tolist() == CORNERS
 
 
 @pytest.mark.parametrize("scale", [1e-9, 1e-30, 1.0, 1e9])
 def test_welding_knows_no_scale(scale: float) -> None:
     for data in (binary_stl(TETRAHEDRON * scale), ascii_stl(TETRAHEDRON * scale)):
-        assert parse_stl(data).corners.tolist() == CORNERS
-        assert parse_stl(data, weld=False).corners.tolist() == list(range(12))
+        assert parsed("stl", data).corners.tolist() == CORNERS
+        assert parsed("stl", data, weld=False).corners.tolist() == list(range(12))
 
 
 def test_a_binary_file_may_begin_with_solid() -> None:
-    assert parse_stl(binary_stl(TETRAHEDRON, b"solid facet outer loop")).corners.tolist() == CORNERS
-    assert parse_stl(binary_stl(TETRAHEDRON, b"\xff\xfe\x80 solid", 0xBEEF)).corners.tolist() == CORNERS
+    assert parsed("stl", binary_stl(TETRAHEDRON, b"solid facet outer loop")).corners.tolist() == CORNERS
+    assert parsed("stl", binary_stl(TETRAHEDRON, b"\xff\xfe\x80 solid", 0xBEEF)).corners.tolist() == CORNERS
 
 
 def test_all_on_one_line() -> None:
     data = b" ".join(ascii_stl(TETRAHEDRON).replace(b"made for a test", b"name").split())
-    assert parse_stl(data).corners.tolist() == CORNERS
+    assert parsed("stl", data).corners.tolist() == CORNERS
     by_facet = ascii_stl(TETRAHEDRON).replace(b"\n      vertex", b" vertex").replace(b"\n    endloop", b" endloop")
-    assert parse_stl(by_facet).corners.tolist() == CORNERS
+    assert parsed("stl", by_facet).corners.tolist() == CORNERS
 
 
 def test_a_keyword_in_the_name_of_the_solid() -> None:
     data = ascii_stl(TETRAHEDRON).replace(b"made for a test", b"my facet vertex endloop")
-    assert parse_stl(data).corners.tolist() == CORNERS
+    assert parsed("stl", data).corners.tolist() == CORNERS
     data = b" ".join(ascii_stl(TETRAHEDRON).replace(b"made for a test", b"part #3").split())
-    assert parse_stl(data).corners.tolist() == CORNERS
+    assert parsed("stl", data).corners.tolist() == CORNERS
 
 
 def test_comments_are_no_statements() -> None:
     """Text STL knows none, but some programs write them: before the first line, between lines and behind numbers."""
     lines = ascii_stl(TETRAHEDRON).replace(b"made for a test", b"part #3").splitlines()
     data = b"# solid\n\n  # facet\r\n" + b"".join(line + b" # vertex 1 2 3\n  # more\n" for line in lines)
-    assert parse_stl(data).corners.tolist() == CORNERS
+    assert parsed("stl", data).corners.tolist() == CORNERS
     assert codes(data) == {}
     assert (
         refused(data.replace(b"vertex 0.0 1.0 0.0", b"vertex 0.0 1.0"))
@@ -113,8 +113,8 @@ def test_comments_are_no_statements() -> None:
 
 def test_normals_that_are_not_numbers_do_not_matter() -> None:
     data = re.sub(rb"normal .*", b"normal -1.#IND 1.#QNAN -nan(ind)", ascii_stl(TETRAHEDRON))
-    assert parse_stl(data).corners.tolist() == CORNERS
-    assert np.isnan(parse_stl(data.replace(b"vertex 1.0 ", b"vertex 1.#QNAN ")).xyz).any()
+    assert parsed("stl", data).corners.tolist() == CORNERS
+    assert np.isnan(parsed("stl", data.replace(b"vertex 1.0 ", b"vertex 1.#QNAN ")).xyz).any()
 
 
 def test_what_is_counted() -> None:
@@ -177,12 +177,12 @@ class TestRefused:
     def test_more_faces_than_allowed(self) -> None:
         for data in (binary_stl(TETRAHEDRON), ascii_stl(TETRAHEDRON)):
             with pytest.raises(InputError, match="4 faces found, at most 3 allowed"):
-                parse_stl(data, max_faces=3)
+                parsed("stl", data, max_faces=3)
 
 
 @pytest.mark.parametrize(("wrong", "place"), [("vertdx", "line 4"), ("vertexes", "line 4"), ("facets", "line 2")])
 def test_misspelt_keywords(wrong: str, place: str) -> None:
     data = ascii_stl(TETRAHEDRON).decode()
     with pytest.raises(InputError, match=f"`{wrong}` found, `{wrong[:3]}") as error:
-        parse_stl(re.sub(wrong[:3] + r"\w+", wrong, data, count=1).encode())
+        parsed("stl", re.sub(wrong[:3] + r"\w+", wrong, data, count=1).encode())
     assert error.value.place == place

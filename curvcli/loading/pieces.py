@@ -1,0 +1,152 @@
+"""The bytes of a mesh, one piece after the other: what is parsed as it comes needs no memory for the whole of it."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import os
+from collections import deque
+from concurrent.futures import Future, ThreadPoolExecutor
+from types import TracebackType
+
+from ..errors import InputError
+from .content import unreadable
+
+_BUFFERS = 3  # one is read or parsed, the others are hashed
+
+
+class Pieces:
+    """The bytes of a regular file, or of data in memory, from the first to the last, each of them read once.
+
+    size: their number. left: how many have not been taken. hashed: whether their hash is wanted; another thread works
+    it out meanwhile.
+    Errors: InputError where the file cannot be read, or changes its size.
+    """
+
+    piece = 1 << 21
+    """The most bytes to be taken of a file at once: they stay in the cache of a core until parsed and hashed."""
+    window = 1 << 16
+    """The most bytes to be seen ahead."""
+
+    def __init__(self, source: io.FileIO | bytes, *, hashed: bool = True) -> None:
+        self._data, self._at = b"", 0
+        self._file: io.FileIO | None = None
+        self._buffers: deque[tuple[bytearray, Future[None] | None]] = deque()
+        self._hash = hashlib.sha256()
+        self._hashing = ThreadPoolExecutor(1) if hashed else None
+        if isinstance(source, bytes):
+            self._data, self.size = source, len(source)
+            self._add_to_hash(source)
+        else:
+            self._file, self.size = source, os.fstat(source.fileno()).st_size
+        self.left = self.size
+
+    def __enter__(self) -> Pieces:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        if self._hashing is not None:
+            self._hashing.shutdown(cancel_futures=True)
+
+    @property
+    def longest(self) -> int:
+        """The most bytes to be taken at once: all of those in memory, as many as `piece` of a file."""
+        return self.left if self._file is None else self.piece
+
+    def ahead(self) -> bytes:
+        """The next bytes, up to `window`, which are still to be taken."""
+        if self._file is None:
+            return self._data[self._at : self._at + self.window]
+        data = bytearray(min(self.window, self.left))
+        at = self._file.tell()
+        self._fill(memoryview(data))
+        self._file.seek(at)
+        return bytes(data)
+
+    def take(self, count: int) -> memoryview:
+        """The next bytes, as many as there must be; they stay where they are until two more pieces have been taken."""
+        self.left -= count
+        if self._file is None:
+            self._at += count
+            return memoryview(self._data)[self._at - count : self._at]
+        buffer = self._buffer(count)
+        piece = memoryview(buffer)[:count]
+        self._fill(piece)
+        self._buffers.append((buffer, self._add_to_hash(piece)))
+        return piece
+
+    def back(self, piece: memoryview) -> None:
+        """The piece that was taken last is to be taken again; everything from there on is in memory now."""
+        if self._file is None:
+            self._at -= len(piece)
+        else:
+            self._data = b"".join((piece, self._read_all(self.left)))
+        self.left += len(piece)
+
+    def whole(self) -> bytes:
+        """All that is left, in memory from now on, and still to be taken."""
+        if self._file is not None:
+            self._data = self._read_all(self.left)
+        elif self._at:
+            self._data, self._at = self._data[self._at :], 0
+        return self._data
+
+    def rest(self) -> bytes:
+        """All that is left."""
+        data = self.whole()
+        self._at, self.left = len(data), 0
+        return data
+
+    def sha256(self) -> str:
+        """The hash of all bytes, taken or not."""
+        if self._file is not None:
+            self.whole()
+        assert self._hashing is not None
+        self._hashing.shutdown()
+        return self._hash.hexdigest()
+
+    def clear(self) -> None:
+        """Let go of all that was taken, and not before: at once it serves for what follows, in parts for little."""
+        self._data, self._at = b"", 0
+        self._buffers.clear()
+
+    def _buffer(self, count: int) -> bytearray:
+        """Room for a piece; in turn, so that those before can be parsed and hashed."""
+        if len(self._buffers) < _BUFFERS:
+            return bytearray(max(count, min(self.piece, self.left)))
+        buffer, hashed = self._buffers.popleft()
+        if hashed is not None:
+            hashed.result()
+        return buffer
+
+    def _fill(self, piece: memoryview) -> None:
+        assert self._file is not None
+        begin = self._file.tell()
+        read = 0
+        try:
+            while read < len(piece):
+                more = self._file.readinto(piece[read:])
+                if not more:
+                    raise self._changed(begin + read)
+                read += more
+        except OSError as error:
+            raise unreadable(error) from None
+
+    def _read_all(self, expected: int) -> bytes:
+        assert self._file is not None
+        try:
+            data = self._file.read()
+            now = os.fstat(self._file.fileno()).st_size
+        except OSError as error:
+            raise unreadable(error) from None
+        if len(data) != expected or now != self.size:
+            raise self._changed(self.size - expected + len(data))
+        self._file = None
+        self._add_to_hash(data)
+        return data
+
+    def _changed(self, read: int) -> InputError:
+        return InputError(f"{self.size} bytes expected, {read} read: the file changed while it was read")
+
+    def _add_to_hash(self, data: bytes | memoryview) -> Future[None] | None:
+        return None if self._hashing is None else self._hashing.submit(self._hash.update, data)
