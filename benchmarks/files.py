@@ -12,8 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from curvcli.commands.allocation import keep_memory
-
 from .harness import Case, Results, interleaved, python, report, seconds, show, times
 from .meshes import Mesh
 from .peers import READ, write_polars, write_savetxt
@@ -82,8 +80,6 @@ WRITERS: dict[str, Callable[[str, list[str], list[Any]], None]] = {
 
 def child(what: str, name: str, path: str, warm: str) -> None:
     """Do it once with a small file, so that imports do not count, then with the clock running."""
-    if "curvcli" in name:
-        keep_memory()
     for each in (warm, path):
         if what == "read":
             begin = time.perf_counter()
