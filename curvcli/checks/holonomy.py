@@ -11,7 +11,9 @@ from ..blocks import EPSILON, cross, dot
 from ..declare import Column, VectorColumn
 from ..groups import Groups
 from ..plurals import counted
+from ..slices import slices
 from ..surface import Surface
+from ..threads import for_each
 from ..topology import find_twins
 from .base import Outcome, check
 
@@ -60,31 +62,37 @@ def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: Vector
     twin = find_twins(surface.edges)
     start = np.full(surface.n_vertices, -1, np.int64)
     start[tail] = np.arange(len(tail))
-    first = start[vertices]
-    corner, upright = first.copy(), np.ones(len(vertices))
-    normal = unit_normal[:, first // 3]
-    begin = _direction(surface, first)
-    vector = begin.copy()
-    steps = surface.corner_count[vertices]
-    active = np.arange(len(vertices))
-    for step in range(int(steps.max(initial=0))):
-        active = active[steps[active] > step]
-        here, up = corner[active], upright[active]
-        # Counterclockwise is across the edge that enters the corner, or that leaves it where the face is upside down.
-        edge = np.where(up > 0, here - here % 3 + (here + 2) % 3, here)
-        across = twin[edge]
-        same_way = tail[across] == tail[edge]
-        starts_here = tail[across] == tail[here]
-        there = np.where(starts_here, across, across - across % 3 + (across + 1) % 3)
-        span = _direction(surface, edge)
-        before = up * unit_normal[:, here // 3]
-        up = np.where(same_way, -up, up)
-        after = up * unit_normal[:, there // 3]
-        moving = vector[:, active]
-        along, sideways = dot(moving, span), dot(moving, cross(before, span))
-        vector[:, active] = along * span + sideways * np.array(cross(after, span))
-        corner[active], upright[active] = there, up
-    return np.arctan2(dot(cross(begin, vector), normal), dot(begin, vector))
+    angle = np.empty(len(vertices))
+
+    def walk(block: slice) -> None:
+        corner, steps = start[vertices[block]], surface.corner_count[vertices[block]]
+        upright = np.ones(len(corner))
+        normal = unit_normal[:, corner // 3]
+        begin = _direction(surface, corner)
+        vector = begin.copy()
+        active = np.arange(len(corner))
+        for step in range(int(steps.max(initial=0))):
+            active = active[steps[active] > step]
+            here, up = corner[active], upright[active]
+            # Counterclockwise is across the edge that enters the corner, or that leaves it where the face is upside
+            # down.
+            edge = np.where(up > 0, here - here % 3 + (here + 2) % 3, here)
+            across = twin[edge]
+            same_way = tail[across] == tail[edge]
+            starts_here = tail[across] == tail[here]
+            there = np.where(starts_here, across, across - across % 3 + (across + 1) % 3)
+            span = _direction(surface, edge)
+            before = up * unit_normal[:, here // 3]
+            up = np.where(same_way, -up, up)
+            after = up * unit_normal[:, there // 3]
+            moving = vector[:, active]
+            along, sideways = dot(moving, span), dot(moving, cross(before, span))
+            vector[:, active] = along * span + sideways * np.array(cross(after, span))
+            corner[active], upright[active] = there, up
+        angle[block] = np.arctan2(dot(cross(begin, vector), normal), dot(begin, vector))
+
+    for_each(slices(len(vertices)), walk)
+    return angle
 
 
 def _direction(surface: Surface, half_edges: NDArray[np.integer[Any]]) -> VectorColumn:
