@@ -112,6 +112,7 @@ def _read(
         def content() -> Made:
             mesh = _parse(pieces, kind, weld, max_faces, normals)
             pieces.clear()
+            hashed.clear()
             check_faces(mesh.polygons, max_faces)
             merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
             notes = (*notices, *mesh.notices)

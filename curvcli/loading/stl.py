@@ -79,9 +79,7 @@ def _read_binary(pieces: Pieces, max_faces: int | None) -> tuple[NDArray[np.floa
             f"{number_of(count, 'facet')} announced, room for {(size - _HEADER) // 50} found: "
             f"{number_of(missing, 'byte')} {agree(missing, '[is|are]')} missing",
             place="byte 80",
-            hint=None
-            if b"\0" in bytes(header) + pieces.whole()
-            else "it is text, and text that is STL begins with `solid`",
+            hint=None if b"\0" in bytes(header) + pieces.whole() else _TEXT,
         )
     check_faces(count, max_faces)
     xyz = np.empty((3, 3 * count), np.float32)
