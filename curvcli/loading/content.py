@@ -60,7 +60,7 @@ def read_limited(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
     if not data:
         raise InputError("no data found, a mesh expected")
     if before is not None and not before == after == len(data):
-        raise InputError(f"{before} bytes expected, {len(data)} read: the file changed while it was read")
+        raise changed(before, len(data))
     return data
 
 
@@ -110,6 +110,11 @@ def shown(text: str) -> str:
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def changed(expected: int, read: int) -> InputError:
+    """What is said of a file that is not as long as it was."""
+    return InputError(f"{expected} bytes expected, {read} read: the file changed while it was read")
 
 
 def unreadable(error: OSError | ValueError) -> InputError:

@@ -9,8 +9,7 @@ from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
 
-from ..errors import InputError
-from .content import unreadable
+from .content import changed, unreadable
 
 _BUFFERS = 3  # one is read or parsed, the others are hashed
 
@@ -127,7 +126,7 @@ class Pieces:
             while read < len(piece):
                 more = self._file.readinto(piece[read:])
                 if not more:
-                    raise self._changed(begin + read)
+                    raise changed(self.size, begin + read)
                 read += more
         except OSError as error:
             raise unreadable(error) from None
@@ -140,13 +139,10 @@ class Pieces:
         except OSError as error:
             raise unreadable(error) from None
         if len(data) != expected or now != self.size:
-            raise self._changed(self.size - expected + len(data))
+            raise changed(self.size, self.size - expected + len(data))
         self._file = None
         self._add_to_hash(data)
         return data
-
-    def _changed(self, read: int) -> InputError:
-        return InputError(f"{self.size} bytes expected, {read} read: the file changed while it was read")
 
     def _add_to_hash(self, data: bytes | memoryview) -> Future[None] | None:
         return None if self._hashing is None else self._hashing.submit(self._hash.update, data)

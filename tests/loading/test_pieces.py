@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import hashlib
 import os
+import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -18,9 +19,9 @@ from curvcli.errors import InputError
 from curvcli.loading.pieces import Pieces
 from curvcli.loading.read import read_mesh_file
 from tests.cli.program import environment
-from tests.loading.parsing import Small
-from tests.loading.spelling import binary_stl
-from tests.loading.test_ply import binary_ply
+from tests.loading.parsing import Small, parsed
+from tests.loading.spelling import binary_stl, polygons
+from tests.loading.test_ply import HEAD, binary_ply
 from tests.loading.test_stl import TETRAHEDRON
 
 ACTS = st.lists(st.sampled_from(["take", "ahead", "back", "whole"]), max_size=40)
@@ -105,3 +106,19 @@ def test_binary_content_needs_no_reader_of_text(tmp_path: Path) -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, env=environment(), check=True
     )
     assert ran.stdout.split() == ["10000", str(float(points[2, 1])), "False"]
+
+
+@given(st.lists(st.integers(0, 3), min_size=20, max_size=20), st.integers(0, 20))
+def test_lists_at_vertices_that_change_their_length_anywhere(lengths: list[int], same: int) -> None:
+    """The first rows are alike, so that they may be read at once."""
+    lengths = [2] * same + lengths[same:]
+    head = HEAD.format(order="binary_little_endian", faces=1).replace("vertex 4", "vertex 20")
+    head = head.replace("property float y", "property list uchar int rings\nproperty float y\nproperty double mark")
+    body = b"".join(
+        struct.pack(f"<fB{n}ifdf", k, n, *range(n), 2 * k, k / 7, 3 * k) for k, n in enumerate(lengths)
+    ) + struct.pack("<B3i", 3, 0, 1, 19)
+    mesh = parsed("ply", head.encode() + body)
+    assert mesh.xyz.T.tolist() == [[k, 2 * k, 3 * k] for k in range(20)]
+    assert list(mesh.vertex_properties) == ["mark"]
+    assert mesh.vertex_properties["mark"].tolist() == [k / 7 for k in range(20)]
+    assert polygons(mesh) == [(0, 1, 19)]

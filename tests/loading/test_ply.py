@@ -99,22 +99,6 @@ def test_several_lists_of_differing_lengths() -> None:
     assert mesh.polygon_properties["part"].tolist() == [-7, 300]
 
 
-@given(st.lists(st.integers(0, 3), min_size=20, max_size=20), st.integers(0, 20))
-def test_lists_at_vertices_that_change_their_length_anywhere(lengths: list[int], same: int) -> None:
-    """The first rows are alike, so that they may be read at once."""
-    lengths = [2] * same + lengths[same:]
-    head = HEAD.format(order="binary_little_endian", faces=1).replace("vertex 4", "vertex 20")
-    head = head.replace("property float y", "property list uchar int rings\nproperty float y\nproperty double mark")
-    body = b"".join(
-        struct.pack(f"<fB{n}ifdf", k, n, *range(n), 2 * k, k / 7, 3 * k) for k, n in enumerate(lengths)
-    ) + struct.pack("<B3i", 3, 0, 1, 19)
-    mesh = parsed("ply", head.encode() + body)
-    assert mesh.xyz.T.tolist() == [[k, 2 * k, 3 * k] for k in range(20)]
-    assert list(mesh.vertex_properties) == ["mark"]
-    assert mesh.vertex_properties["mark"].tolist() == [k / 7 for k in range(20)]
-    assert polygons(mesh) == [(0, 1, 19)]
-
-
 STRIPS = """ply
 format ascii 1.0
 element vertex 6
