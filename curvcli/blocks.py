@@ -6,7 +6,7 @@ and `np.add.at` scatters; this is several times faster than the same formulas on
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compensated import cross_of_edges
-from .slices import slices
+from .slices import ENTRIES, slices
+from .threads import another_thread
 from .topology import Index, Mask
 
 if TYPE_CHECKING:
@@ -77,6 +78,15 @@ class Triangles:
     def no_angle(self, corner: int) -> Mask:
         """Faces that have no angle at a corner: it lies on another one, or the product of its edges is lost."""
         return np.maximum(np.abs(self.cosines[corner]), self.twice_area) < _SMALL_SQUARE
+
+    def angle(self, corner: int) -> Floats:
+        """The angle at a corner."""
+        angle: Floats = np.arctan2(self.twice_area, self.cosines[corner])
+        return angle
+
+    def angles(self) -> list[Floats]:
+        """The angle at each corner."""
+        return [self.angle(corner) for corner in range(3)]
 
     def extent(self) -> Floats:
         """√(¾ Σ|e|²): no less than half the perimeter, nor more than 1.23 times that, for the root of one sum."""
@@ -188,25 +198,38 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     vector, gradient = np.zeros((3, n)), np.zeros((3, n))
     face_area = np.empty(n_faces)
     degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
-    for block in slices(n_faces):
-        t = triangles(xyz, faces[block])
-        sixth, extent = t.twice_area / 6, t.extent()
-        face_area[block] = t.twice_area / 2
-        for corner, cosine in zip(t.corners, t.cosines, strict=True):
-            np.add.at(angle, corner, np.arctan2(t.twice_area, cosine))
-            np.add.at(area, corner, sixth)
-            np.add.at(extents, corner, extent)
-        if t.degenerate is not None:
-            degenerate[block] = t.degenerate
-            _mark_coincident(coincident, t)
-        at_0, at_2 = _gradient_terms(t)
-        for k in range(3):
-            third = t.normal[k] / 6
-            for j, corner in enumerate(t.corners):
-                np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
-            np.add.at(gradient[k], t.corners[0], at_0[k])
-            np.subtract.at(gradient[k], t.corners[1], at_0[k] + at_2[k])
-            np.add.at(gradient[k], t.corners[2], at_2[k])
+
+    def add_angles(corners: NDArray[np.intp], angles: Callable[[], list[Floats]]) -> None:
+        for corner, each in zip(corners, angles(), strict=True):
+            np.add.at(angle, corner, each)
+
+    waiting = None
+    # Arc tangents are nearly half of the work: those of a block are worked out beside all the rest of it.
+    with another_thread(n_faces > ENTRIES) as begun:
+        for block in slices(n_faces):
+            t = triangles(xyz, faces[block])
+            angles = begun(t.angles)
+            sixth, extent = t.twice_area / 6, t.extent()
+            face_area[block] = t.twice_area / 2
+            for corner in t.corners:
+                np.add.at(area, corner, sixth)
+                np.add.at(extents, corner, extent)
+            if t.degenerate is not None:
+                degenerate[block] = t.degenerate
+                _mark_coincident(coincident, t)
+            at_0, at_2 = _gradient_terms(t)
+            for k in range(3):
+                third = t.normal[k] / 6
+                for j, corner in enumerate(t.corners):
+                    np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
+                np.add.at(gradient[k], t.corners[0], at_0[k])
+                np.subtract.at(gradient[k], t.corners[1], at_0[k] + at_2[k])
+                np.add.at(gradient[k], t.corners[2], at_2[k])
+            if waiting is not None:
+                add_angles(*waiting)
+            waiting = t.corners, angles
+        if waiting is not None:
+            add_angles(*waiting)
     return StarSums(angle, area, vector, gradient, extents, face_area, degenerate, coincident)
 
 
@@ -236,7 +259,7 @@ def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
         for k, corner in enumerate(t.corners):
             kept = large[corner]
             thirds = [x / 6 if sign is None else x / 6 * sign[:, k] for x in t.normal]
-            rows = [np.arctan2(t.twice_area, t.cosines[k]), t.twice_area / 6, *thirds, *gradients[k]]
+            rows = [t.angle(k), t.twice_area / 6, *thirds, *gradients[k]]
             vertices.append(corner[kept])
             terms.append(np.stack(rows)[:, kept])
     vertex, each = np.concatenate(vertices), np.concatenate(terms, axis=1)

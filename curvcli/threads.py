@@ -1,17 +1,38 @@
-"""Work on blocks in two threads: array arithmetic lets go of the interpreter, and each block has a place of its own."""
+"""Work in two threads: array arithmetic lets go of the interpreter, and what is done in which order stays the same."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from itertools import chain, islice
 from typing import TypeVar
 
 _Piece = TypeVar("_Piece")
+_Found = TypeVar("_Found")
 
 # More wait for memory and for each other.
 _THREADS = 2
+
+
+def _alone() -> bool:
+    """Whether there is one thread to work with."""
+    # The variable that numerical libraries obey; a batch sets it for its workers, each of which has one core.
+    return (os.cpu_count() or 1) < _THREADS or os.environ.get("OMP_NUM_THREADS") == "1"
+
+
+@contextmanager
+def another_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Found]], Callable[[], _Found]]]:
+    """Something that has work begun in another thread, and gives what waits for its result.
+
+    worth: whether there is so much to do that a thread pays; else the work is done when its result is asked for.
+    """
+    if _alone() or not worth:
+        yield lambda work: work
+        return
+    with ThreadPoolExecutor(1) as pool:
+        yield lambda work: pool.submit(work).result
 
 
 def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
@@ -26,8 +47,7 @@ def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
             work(piece)
         return
     todo = chain(first, todo)
-    # The variable that numerical libraries obey; a batch sets it for its workers, each of which has one core.
-    if (os.cpu_count() or 1) < _THREADS or os.environ.get("OMP_NUM_THREADS") == "1":
+    if _alone():
         for piece in todo:
             work(piece)
         return

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 import curvcli
-from curvcli.threads import for_each
+from curvcli.samples import get
+from curvcli.threads import another_thread, for_each
 from tests import meshes
 
 NAMES = ("K_plus", "K_abs", "theta", "edge_H_vec", "beta", "willmore_conformal", "dir_1", "dir_2")
@@ -25,6 +26,33 @@ def test_threads_and_blocks_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> No
     whole = found("1", 1 << 16, 1 << 15)
     for threads, directions, edges in (("2", 1 << 16, 1 << 15), ("1", 128, 50), ("2", 128, 50)):
         assert found(threads, directions, edges) == whole
+
+
+def test_angles_worked_out_beside_the_rest_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    given = get("torus")(size=20_000, jitter=0.3)  # of three blocks of faces
+    names = ("K", "A", "A_vec", "H_vec")
+
+    def found(threads: str) -> list[bytes]:
+        monkeypatch.setenv("OMP_NUM_THREADS", threads)
+        analysis = curvcli.analyze((given.points, given.faces), names)
+        return [analysis.column(name).tobytes() for name in names]
+
+    assert found("2") == found("1")
+
+
+@pytest.mark.parametrize("threads", ["1", "2"])
+def test_a_failure_in_another_thread_is_raised_where_it_is_asked_for(
+    threads: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", threads)
+
+    def work() -> int:
+        raise MemoryError
+
+    with another_thread() as begun:
+        result = begun(work)
+        with pytest.raises(MemoryError):
+            result()
 
 
 @pytest.mark.parametrize("threads", ["1", "2"])

@@ -101,7 +101,7 @@ class Darboux:
                 at = place[fans.of_corners(3 * face + k)]
                 here = at >= 0
                 at = at[here]
-                theta = np.arctan2(t.twice_area, t.cosines[k])
+                theta = t.angle(k)
                 # A corner on top of another one of its face has no angle.
                 theta[t.no_angle(k)] = np.nan
                 np.add.at(angle, at, theta[here])
