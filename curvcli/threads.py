@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from contextvars import copy_context
 from itertools import chain, islice
 from typing import TypeVar
 
@@ -32,25 +34,26 @@ def another_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Found
         yield lambda work: work
         return
     with ThreadPoolExecutor(1) as pool:
-        yield lambda work: pool.submit(work).result
+        yield lambda work: pool.submit(copy_context().run, work).result
 
 
 def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
-    """Do the work for every piece; pieces must not share what they write, so that the order does not matter.
+    """Do the work for every piece; pieces must not share what they write, so that the order does not matter."""
+    deque(each(pieces, work), maxlen=0)
+
+
+def each(pieces: Iterable[_Piece], work: Callable[[_Piece], _Found]) -> Iterator[_Found]:
+    """What the work finds for every piece, in their order; pieces must not share what they write.
 
     Pieces are taken from an iterator as they are needed, so that few are there at a time.
     """
     todo = iter(pieces)
     first = list(islice(todo, 2))
-    if len(first) < 2:  # not worth a thread
-        for piece in first:
-            work(piece)
-        return
     todo = chain(first, todo)
-    if _alone():
-        for piece in todo:
-            work(piece)
+    if len(first) < 2 or _alone():  # one piece is not worth a thread
+        yield from map(work, todo)
         return
+    context = copy_context()  # what numpy is to do about overflows and the like
     with ThreadPoolExecutor(_THREADS) as pool:
         while batch := list(islice(todo, 4 * _THREADS)):
-            list(pool.map(work, batch))
+            yield from pool.map(lambda piece: context.copy().run(work, piece), batch)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import curvcli
 from curvcli.samples import get
-from curvcli.threads import another_thread, for_each
+from curvcli.threads import another_thread, each, for_each
 from tests import meshes
 
 NAMES = ("K_plus", "K_abs", "theta", "edge_H_vec", "beta", "willmore_conformal", "dir_1", "dir_2")
@@ -66,3 +67,19 @@ def test_a_failure_in_a_thread_is_raised(threads: str, failing: int, monkeypatch
 
     with pytest.raises(MemoryError):
         for_each(range(100), work)
+
+
+@pytest.mark.parametrize("threads", ["1", "2"])
+def test_what_numpy_is_to_do_about_errors_holds_in_threads_too(threads: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", threads)
+    huge = np.array([1e300])
+
+    def square(piece: int) -> float:
+        return float((huge * huge)[0])
+
+    with np.errstate(over="ignore"):
+        assert list(each(range(3), square)) == [np.inf] * 3
+        with another_thread() as begun:
+            assert begun(lambda: square(0))() == np.inf
+    with np.errstate(over="raise"), pytest.raises(FloatingPointError):
+        list(each(range(3), square))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
 from ..slices import LONG, slices
+from ..threads import each
 from .model import MeshFile
 
 _CROWD = 200
@@ -76,18 +78,10 @@ def _lowest_equal(xyz: NDArray[np.floating[Any]]) -> NDArray[np.int32]:
         power = max(4, count.bit_length())
         if len(table) < 1 << power:
             table = np.empty(1 << power, np.int32)
-        shift = np.uint64(64 - power)
-        slots = [(_hash(_bits(xyz, piece), round_) >> shift).astype(np.uint32) for piece in pieces]
+        slots = list(each(pieces, partial(_slots, xyz, round_, np.uint64(64 - power))))
         for piece, slot in zip(reversed(pieces), reversed(slots), strict=True):
             table[slot[::-1].astype(np.intp)] = _indices(piece)[::-1]  # the last assignment wins: the lowest index
-        unsettled = []
-        for piece, slot in zip(pieces, slots, strict=True):
-            candidate = table.take(slot)
-            both = zip(_bits(xyz, piece), _bits(xyz, candidate), strict=True)
-            equal = np.logical_and.reduce([mine == other for mine, other in both])
-            lowest[piece] = candidate
-            unsettled.append(_indices(piece)[~equal])  # whose candidate is replaced
-        index = np.concatenate(unsettled)
+        index = np.concatenate(list(each(zip(pieces, slots, strict=True), partial(_settle, lowest, xyz, table))))
         count, pieces = len(index), [index[block] for block in slices(len(index), LONG)]
     # Only a file made for it gets here: sort what is left.
     columns = _bits(xyz, index)
@@ -96,6 +90,29 @@ def _lowest_equal(xyz: NDArray[np.floating[Any]]) -> NDArray[np.int32]:
     new[1:] = np.any([column[order[1:]] != column[order[:-1]] for column in columns], axis=0)
     lowest[index[order]] = index[order][new][np.cumsum(new) - 1]
     return lowest
+
+
+def _slots(
+    xyz: NDArray[np.floating[Any]], round_: int, shift: np.uint64, piece: slice | NDArray[np.int32]
+) -> NDArray[np.uint32]:
+    """Where the table has the positions of a piece."""
+    return (_hash(_bits(xyz, piece), round_) >> shift).astype(np.uint32)
+
+
+def _settle(
+    lowest: NDArray[np.int32],
+    xyz: NDArray[np.floating[Any]],
+    table: NDArray[np.int32],
+    placed: tuple[slice | NDArray[np.int32], NDArray[np.uint32]],
+) -> NDArray[np.int32]:
+    """The positions of a piece that do not equal what the table has in their slot; all have it for their lowest."""
+    piece, slot = placed
+    candidate = table.take(slot)
+    both = zip(_bits(xyz, piece), _bits(xyz, candidate), strict=True)
+    equal = np.logical_and.reduce([mine == other for mine, other in both])
+    lowest[piece] = candidate
+    unsettled: NDArray[np.int32] = _indices(piece)[~equal]
+    return unsettled
 
 
 def _indices(piece: slice | NDArray[np.int32]) -> NDArray[np.int32]:
