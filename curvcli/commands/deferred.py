@@ -7,8 +7,12 @@ from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 
-# scipy asks numpy for everything that it has, and trimesh imports what rotates and filters.
-NEVER_USED = ("numpy.f2py", "numpy.polynomial", "numpy.testing", "scipy.ndimage", "scipy.spatial.transform")
+# scipy asks numpy for everything that it has, and trimesh imports what rotates, filters and minimises.
+NEVER_USED = (
+    *("numpy.f2py", "numpy.polynomial", "numpy.testing"),
+    *("scipy.ndimage", "scipy.optimize", "scipy.spatial.transform"),
+    *("trimesh.nsphere", "trimesh.path.simplify"),  # which take functions out of scipy.optimize
+)
 
 
 class Deferred:
