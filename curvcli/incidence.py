@@ -7,8 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from .arrays import frozen
+from .fans import split_stars
 from .orientation import same_direction
-from .topology import Edges, Index, Mask, find_edges, split_stars
+from .topology import Edges, Index, Mask, find_edges
 
 
 class Incidence:
@@ -130,7 +131,9 @@ class Incidence:
     def winding_conflicts(self) -> Mask:
         """(E,) edges with n_e = 2 whose two faces run along them the same way in the file."""
         conflict = np.zeros(len(self.edges), bool)
-        conflict[self.edges.inner] = same_direction(self.faces, *self.edges.pairs)
+        same = same_direction(self.faces, *self.edges.pairs)
+        if same.any():
+            conflict[self.edges.inner] = same
         return conflict
 
     @cached_property

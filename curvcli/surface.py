@@ -25,6 +25,8 @@ from .orientation import (
     uncancelled,
 )
 from .plurals import counted
+from .slices import LONG
+from .threads import another_thread
 from .topology import (
     Index,
     Mask,
@@ -251,6 +253,11 @@ class Surface(Incidence):
 
     def work_out_topology(self) -> None:
         """Work out what every analysis asks of the edges."""
+        with another_thread(worth=self.referenced.size > LONG) as begun:
+            pieces = begun(lambda: self.components)  # which need the edges, and nothing else that is still to be known
+            for known in ("interior", "degree"):
+                getattr(self, known)
+            pieces()
         for known in _OF_EDGES:
             getattr(self, known)
 

@@ -1,4 +1,4 @@
-"""How triangles hang together: edges, twins, fans and connected pieces, from the face list alone.
+"""How triangles hang together: edges, twins and connected pieces, from the face list alone.
 
 Half-edge 3 f + k runs from corner k to corner k + 1 (mod 3) of face f; its index is also that of its tail's corner.
 Everything is counting and gathering over whole arrays, linear in the mesh.
@@ -22,9 +22,6 @@ Mask = NDArray[np.bool_]
 
 # Of so many edges one is looked at first: nearly always it and its like join what can be joined.
 _SAMPLE = 8
-
-# Stars are walked corner by corner up to this many faces; the rare larger ones go through the corner graph.
-_WALK_LIMIT = 64
 
 
 class InnerEdges(NamedTuple):
@@ -81,15 +78,13 @@ class Edges:
     @cached_property
     def pairs(self) -> tuple[Index, Index]:
         """The two half-edges of every edge with n_e = 2."""
-        if isinstance(self.inner, slice):
-            return self.order[::2], self.order[1::2]
-        one, other = np.empty(len(self.inner), np.int32), np.empty(len(self.inner), np.int32)
-        for block in slices(len(self.inner), LONG):
-            begin = self.start.take(self.inner[block])
-            one[block], other[block] = self.order.take(begin), self.order.take(begin + 1)
-        one.setflags(write=False)
-        other.setflags(write=False)
-        return one, other
+        paired = self.order
+        if len(self.unpaired):
+            kept = np.ones(len(paired), bool)
+            kept[self._places(self.unpaired)] = False
+            paired = paired[kept]
+            paired.setflags(write=False)
+        return paired[::2], paired[1::2]
 
     def inner_edges(self, block: slice) -> InnerEdges:
         """A block of the edges with n_e = 2, of which there are as many as `pairs`."""
@@ -99,10 +94,15 @@ class Edges:
 
     def half_edges(self, edges: NDArray[np.integer]) -> Index:
         """All half-edges of the given edges, one edge after the other."""
+        chosen: Index = self.order[self._places(edges)]
+        return chosen
+
+    def _places(self, edges: NDArray[np.integer]) -> NDArray[np.intp]:
+        """Where `order` has all half-edges of the given edges, one edge after the other."""
         valence = self.valence[edges]
         before = np.cumsum(valence) - valence
-        chosen: Index = self.order[np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())]
-        return chosen
+        places: NDArray[np.intp] = np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())
+        return places
 
 
 def _ends(faces: Index) -> tuple[Index, Index]:
@@ -242,81 +242,3 @@ def neighbouring_corners(faces: Index, one: Index, other: Index) -> tuple[Index,
     at_tail = np.where(same_way, other, next_corner(other))
     at_head = np.where(same_way, next_corner(other), other)
     return np.concatenate([one, next_corner(one)]), np.concatenate([at_tail, at_head])
-
-
-def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: bool, boundary_edges: Index) -> Mask:
-    """(V,) vertices whose star is more than one fan of faces joined through edges with n_e = 2.
-
-    corner_count, boundary_edges: (V,) number of faces, and of edges with n_e = 1, at each vertex. Unreferenced vertices
-    count as one fan; ends of edges with n_e > 2 may be missed.
-    """
-    vertices = len(corner_count)
-    split: Mask = boundary_edges > 2
-    if not consistent:
-        return split | _split_by_graph(faces, edges, np.arange(len(faces), dtype=np.int32), vertices)
-    # With one winding, turning counterclockwise about a vertex is a partial permutation of its corners: the star is one
-    # fan exactly if the walk meets every corner. It starts at the clockwise end of the fan where there is one.
-    turn, start = _turns(edges), np.full(vertices, -1, np.int32)
-    tail = faces.ravel()
-    for block in slices(len(tail), LONG):
-        start[tail[block].astype(np.intp)] = np.arange(block.start, block.stop, dtype=np.int32)
-    last = np.flatnonzero(turn < 0)
-    clockwise_end = last - np.where(last % 3 == 0, -2, 1)
-    start[tail[clockwise_end]] = clockwise_end
-    large = np.zeros(vertices, bool)
-    for block in slices(vertices, LONG):
-        apart, longer = _walk(turn, start[block], corner_count[block])
-        split[block][apart] = True
-        large[block][longer] = True
-    if not large.any():
-        return split
-    return split | (large & _split_by_graph(faces, edges, np.flatnonzero(large[faces].any(axis=1)), vertices))
-
-
-def _turns(edges: Edges) -> Index:
-    """(3F,) the corner next to each about its vertex, across the half-edge that arrives there; -1 if there is none."""
-    turn = find_twins(edges)
-    for block in slices(len(turn), 3 * LONG):
-        twin = turn[block].copy()
-        turn[block][1:], turn[block][::3] = twin[:-1], twin[2::3]
-    return turn
-
-
-def _walk(turn: Index, start: Index, corners: Index) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Of some vertices those where turning does not meet every corner, and those with too many corners to tell."""
-    split = np.zeros(len(start), bool)
-    active = np.flatnonzero(corners > 1)
-    at, length = start.take(active), corners.take(active)
-    begin = at
-    for step in range(1, _WALK_LIMIT):
-        if not len(active):
-            break
-        at = turn.take(at)
-        # One corner alone is no fan, unless the surface ends on both its sides: there the walk would have begun.
-        going = length > step + 2
-        stopped = (at < 0) | (at == begin)
-        if stopped.any():
-            split[active[stopped]] = True
-            going &= ~stopped
-        left = np.flatnonzero(going)
-        if len(left) < len(active):
-            active, at, begin, length = active.take(left), at.take(left), begin.take(left), length.take(left)
-    return np.flatnonzero(split), active
-
-
-def _split_by_graph(faces: Index, edges: Edges, chosen: NDArray[np.integer], vertices: int) -> Mask:
-    """The same by connected components of corners, for any winding; right at vertices all of whose faces are chosen."""
-    one, other = edges.pairs
-    if len(chosen) < len(faces):
-        inside = np.zeros(len(faces), bool)
-        inside[chosen] = True
-        keep = inside[one // 3] & inside[other // 3]
-        one, other = one[keep], other[keep]
-    _, label = label_graph(3 * len(faces), *neighbouring_corners(faces, one, other))
-    corner = (3 * chosen[:, None] + np.arange(3)).ravel()
-    vertex = faces.ravel()[corner]
-    first = np.empty(vertices, np.int32)
-    first[vertex] = label[corner]
-    split = np.zeros(vertices, bool)
-    split[vertex[label[corner] != first[vertex]]] = True
-    return split
