@@ -24,6 +24,8 @@ def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, F
     (1/4π) ∬ (T × T′)·(x − x′)/|x − x′|³: the number of crossings with their signs, averaged over all directions of
     view. For two edges the integral is the solid angle of the directions between them, a spherical quadrilateral,
     taken as two triangles by atan2 (Banchoff; Klenin–Langowski by another formula). Changes sign under reflection.
+    Where two edges meet it jumps by two as the one passes through the other, and half-way between is what they add:
+    nothing, as all of a plane curve.
 
     curves: in E³, open or closed, without repeated points. max_edges: the double sums are refused beyond this size:
     curves are taken from the smallest up while √Σ edges² ≤ max_edges; the others get NaN. None: no limit.
@@ -125,8 +127,10 @@ def _pairs(one: Floats, other: Floats) -> tuple[Floats, Floats]:
     volume = x * (e[2] * f[1] - e[1] * f[2]) + y * (e[0] * f[2] - e[2] * f[0]) + z * (e[1] * f[0] - e[0] * f[1])
     angle = 2 * np.arctan2(volume * (first + second), first * second - volume * volume)
     length = np.sqrt(e[0] ** 2 + e[1] ** 2 + e[2] ** 2) * np.sqrt(f[0] ** 2 + f[1] ** 2 + f[2] ** 2)
+    # V is known to about ε |a||e||f|; below that it has no sign, and where edges meet the angle is that of its sign.
+    angle[np.abs(volume) <= 8 * EPSILON * a * length] = 0.0
     size = np.sqrt(np.minimum(first * first, second * second) + volume * volume)
     with np.errstate(divide="ignore", invalid="ignore"):
-        # V is known to ε |a||e||f| and D to about 8 ε |a||b||c|; D moves the angle by V / |D + iV| of that.
+        # V is known to that and D to about 8 ε |a||b||c|; D moves the angle by V / |D + iV| of that.
         condition = a * (length + 8 * c * (b + d) * np.abs(volume) / size) / size
     return angle, np.where(size > 0, condition, 0.0)

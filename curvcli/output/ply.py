@@ -149,8 +149,9 @@ def _scalar(name: str, column: Column, told: list[str]) -> NDArray[Any]:
 def _codes(name: str, labels: Labels, told: list[str]) -> NDArray[Any]:
     few = len(labels.names) <= 255
     told.append(meaning(_token(name), labels, 255 if few else -1))
-    missing = labels.codes < 0
-    return np.where(missing, 255, labels.codes).astype(np.uint8) if few else labels.codes.astype("<i4", copy=False)
+    if not few:
+        return labels.codes.astype("<i4", copy=False)
+    return np.where(labels.codes < 0, np.uint8(255), labels.codes.astype(np.uint8))
 
 
 def meaning(name: str, labels: Labels, none: int) -> str:

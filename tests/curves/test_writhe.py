@@ -52,6 +52,18 @@ def test_plane_curves_and_spherical_symmetry_have_none() -> None:
     assert Curve(regular(3), closed=True).writhe() == 0
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_plane_curves_that_cross_themselves_have_none(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    eight = np.array([[0.0, 0], [1, 1], [1, 0], [0, 1]]) + random.normal(scale=0.1, size=(4, 2))
+    star = np.array([[np.cos(4 * np.pi * k / 5), np.sin(4 * np.pi * k / 5)] for k in range(5)])
+    for flat in (eight, star + random.normal(scale=0.05, size=(5, 2)), random.normal(size=(100, 2))):
+        for axis in range(3):
+            assert Curve(np.insert(flat, axis, 0.75, axis=1), closed=True).writhe() == 0
+        whole = np.round(64 * flat)
+        assert Curve(np.column_stack([whole, -whole.sum(axis=1)]), closed=True).writhe() == 0
+
+
 def test_right_handed_helices_writhe_positively() -> None:
     assert Curve(helix(100)).writhe() > 0
     assert Curve(helix(100) * [1, 1, -1]).writhe() < 0
