@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .slices import LONG, slices
-from .topology import Edges, Index, Mask, find_twins, label_graph, neighbouring_corners
+from .topology import Edges, Index, Mask, find_twins, label_graph, neighbouring_corners, previous_corner
 
 # Stars are walked corner by corner up to this many faces; the rare larger ones go through the corner graph.
 _WALK_LIMIT = 64
@@ -29,7 +29,7 @@ def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: boo
     for block in slices(len(tail), LONG):
         start[tail[block].astype(np.intp)] = np.arange(block.start, block.stop, dtype=np.int32)
     last = np.flatnonzero(turn < 0)
-    clockwise_end = last - np.where(last % 3 == 0, -2, 1)
+    clockwise_end = previous_corner(last)
     start[tail[clockwise_end]] = clockwise_end
     large = np.zeros(vertices, bool)
     for block in slices(vertices, LONG):

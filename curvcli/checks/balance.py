@@ -11,7 +11,7 @@ from ..curvatures.mean import conormals
 from ..declare import Column, VectorColumn
 from ..groups import Groups, Segments
 from ..surface import Surface
-from ..topology import Index
+from ..topology import Index, ends_of
 from .base import Floats, Outcome, check, exclude_null, rounding
 
 
@@ -29,10 +29,9 @@ def boundary_segments(groups: Groups, half_edges: Index) -> Segments:
 def _boundary(surface: Surface, groups: Groups) -> tuple[Segments, VectorColumn, VectorColumn]:
     """Segments, midpoints about the base and conormals η|e| of the boundary edges."""
     half_edges = surface.boundary_half_edges
-    face, corner = half_edges // 3, half_edges % 3
-    ends = surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]
+    tail, head = ends_of(surface.faces, half_edges)
     base = surface.base[:, None]
-    midpoint = 0.5 * (surface.xyz[:, ends[0]] - base) + 0.5 * (surface.xyz[:, ends[1]] - base)
+    midpoint = 0.5 * (surface.xyz[:, tail] - base) + 0.5 * (surface.xyz[:, head] - base)
     return boundary_segments(groups, half_edges), midpoint, conormals(surface, half_edges)
 
 

@@ -14,7 +14,7 @@ from ..plurals import counted
 from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
-from ..topology import find_twins
+from ..topology import ends_of, find_twins, next_corner, previous_corner
 from .base import Outcome, check
 
 # Stars of more faces are left out: the walk takes one step per face.
@@ -76,11 +76,11 @@ def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: Vector
             here, up = corner[active], upright[active]
             # Counterclockwise is across the edge that enters the corner, or that leaves it where the face is upside
             # down.
-            edge = np.where(up > 0, here - here % 3 + (here + 2) % 3, here)
+            edge = np.where(up > 0, previous_corner(here), here)
             across = twin[edge]
             same_way = tail[across] == tail[edge]
             starts_here = tail[across] == tail[here]
-            there = np.where(starts_here, across, across - across % 3 + (across + 1) % 3)
+            there = np.where(starts_here, across, next_corner(across))
             span = _direction(surface, edge)
             before = up * unit_normal[:, here // 3]
             up = np.where(same_way, -up, up)
@@ -97,8 +97,7 @@ def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: Vector
 
 def _direction(surface: Surface, half_edges: NDArray[np.integer[Any]]) -> VectorColumn:
     """Unit vectors along half-edges."""
-    face, corner = half_edges // 3, half_edges % 3
-    a, b = surface.faces[face, corner], surface.faces[face, (corner + 1) % 3]
+    a, b = ends_of(surface.faces, half_edges)
     span = surface.xyz[:, b] - surface.xyz[:, a]
     square = dot(span, span)
     return span / np.sqrt(np.where(square > np.finfo(np.float64).tiny, square, np.nan))

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from ..surface import Surface
-from ..topology import ends_of, label_graph, neighbouring_corners
+from ..topology import ends_of, label_graph, neighbouring_corners, next_corner
 from .polygon import Curves, Mask, Rows
 
 
@@ -51,7 +51,7 @@ class Boundary:
         """(n,) a corner at the vertex, of the face beside the edge that leaves it (at an open end, arrives)."""
         there = np.where(self.half_edge < 0, np.roll(self.half_edge, 1), self.half_edge)
         at_tail = self.forward == (self.half_edge >= 0)
-        return np.where(at_tail, there, there + np.where(there % 3 == 2, -2, 1))
+        return np.where(at_tail, there, next_corner(there))
 
 
 class Fans:
@@ -126,7 +126,7 @@ def _mates(surface: Surface, fans: Fans, half_edge: Rows) -> tuple[Rows, Mask]:
     count = len(half_edge)
     sign = surface.orientation.face_sign
     forward = np.ones(count, bool) if sign is None else sign[half_edge // 3] > 0
-    after = half_edge + np.where(half_edge % 3 == 2, -2, 1)
+    after = next_corner(half_edge)
     tail, head = np.where(forward, half_edge, after), np.where(forward, after, half_edge)
     # Both ends of all edges, first the tails; two ends in one fan follow one another.
     fan = fans.of_corners(np.concatenate([tail, head]))
