@@ -27,6 +27,9 @@ Vector = Sequence[Floats] | Floats
 
 EPSILON = float(np.finfo(np.float64).eps)
 
+# A vector area below this part of the area, or a scalar product below this part of |a||b|, is rounding alone.
+LOST = 1e-12
+
 # Stars of more faces are summed in pairs.
 LARGE_STAR = 32
 

@@ -13,7 +13,7 @@ from ..settings import Scale
 from ..slices import slices
 from ..surface import Surface
 from .directions import star_tensors
-from .mean import LOST
+from .mean import pointed
 from .star import null_where, ratio
 from .tensor import tangential
 
@@ -73,8 +73,7 @@ def K_ring(surface: Surface, ring_K: Column, ring_area: Column) -> Column:
 def h_ring(surface: Surface, ring_H_vec: VectorColumn, ring_vector: VectorColumn, ring_area: Column) -> Column:
     """Mean curvature κ₁ + κ₂ of the neighbourhood, positive where convex; null where |ΣA_vec| < 1e-12 ΣA."""
     length = np.sqrt(dot(ring_vector, ring_vector))
-    pointed = surface.interior & (length >= LOST * ring_area)
-    size = ratio(np.sqrt(dot(ring_H_vec, ring_H_vec)), length, pointed)
+    size = ratio(np.sqrt(dot(ring_H_vec, ring_H_vec)), length, pointed(surface, length, ring_area))
     return null_where(surface.without_orientation, np.where(dot(ring_H_vec, ring_vector) < 0, size, 0.0 - size))
 
 
@@ -114,11 +113,11 @@ def ring_principal_curvatures(
     used = surface.interior & np.isfinite(tensor[0])
     total = _sums(surface, scale, used, [star_area, *star_vector, *tensor])
     found = np.full((2, surface.n_vertices), np.nan)
+    area, vector = total[0], total[1:4]
+    length = np.sqrt(dot(vector, vector))
+    known = pointed(surface, length, area) & (area > 0) & ~surface.without_orientation
     for block in slices(surface.n_vertices):
-        area, vector = total[0, block], total[1:4, block]
-        length = np.sqrt(dot(vector, vector))
         with np.errstate(divide="ignore", invalid="ignore"):
-            middle, half, _, _ = tangential(0.5 * total[4:, block] / area, vector / length)
-        known = (area > 0) & (length >= LOST * area) & surface.interior[block] & ~surface.without_orientation[block]
-        found[:, block] = np.where(known, [middle + half, middle - half], np.nan)
+            middle, half, _, _ = tangential(0.5 * total[4:, block] / area[block], vector[:, block] / length[block])
+        found[:, block] = np.where(known[block], [middle + half, middle - half], np.nan)
     return found[0], found[1]

@@ -9,7 +9,7 @@ from ..declare import Column, Quantity, VectorColumn, curvature_pass
 from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
-from .mean import LOST
+from .mean import pointed
 from .tensor import ENTRIES, line, tangential
 
 _SHARED = {
@@ -54,8 +54,7 @@ def principal_directions(
     """
     tensor, size = star_tensors(surface, theta)
     frames = np.full((2, 3, surface.n_vertices), np.nan)
-    usable = np.sqrt(dot(A_vec, A_vec)) >= LOST * star_area
-    usable &= surface.interior & (star_area > 0)
+    usable = pointed(surface, np.sqrt(dot(A_vec, A_vec)), star_area) & (star_area > 0)
 
     def turned(block: slice) -> None:
         frames[:, :, block] = _tangential(tensor[:, block], size[block], A_vec[:, block])

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import cross, dot, triangles
+from ..blocks import LOST, cross, dot, triangles
 from ..declare import Column, Flags, VectorColumn, curvature_pass
 from ..surface import Surface
 from ..topology import Index, ends_of, next_corner
 from .star import null_where, ratio
-
-# What divides by |A_vec| is undefined where it is below this part of the star's area, and what divides by H·A where
-# that is below this part of |H||A|: there rounding has eaten the quotient.
-LOST = 1e-12
 
 
 @curvature_pass(
@@ -104,12 +100,12 @@ def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
 def h(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Mean curvature of the vertex without its sign; null where |A_vec| < 1e-12 A."""
     length = np.sqrt(dot(star_vector, star_vector))
-    return ratio(np.sqrt(dot(H_vec, H_vec)), length, surface.interior & (length >= LOST * star_area))
+    return ratio(np.sqrt(dot(H_vec, H_vec)), length, pointed(surface, length, star_area))
 
 
-def pointed(surface: Surface, star_vector: VectorColumn, star_area: Column) -> Flags:
-    """(V,) interior vertices whose star's vector area has not lost its direction to rounding."""
-    mask: Flags = surface.interior & (np.sqrt(dot(star_vector, star_vector)) >= LOST * star_area)
+def pointed(surface: Surface, length: Column, area: Column) -> Flags:
+    """(V,) interior vertices where a vector area of this length has not lost its direction to rounding."""
+    mask: Flags = surface.interior & (length >= LOST * area)
     return mask
 
 
@@ -160,16 +156,17 @@ def h_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Column:
 )
 def h_perp(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Mean curvature from the component of H_vec along A_vec, positive where convex."""
-    perp = ratio(-dot(H_vec, star_vector), dot(star_vector, star_vector), pointed(surface, star_vector, star_area))
+    square = dot(star_vector, star_vector)
+    perp = ratio(-dot(H_vec, star_vector), square, pointed(surface, np.sqrt(square), star_area))
     return null_where(surface.without_orientation, perp)
 
 
 @curvature_pass(public=False)
 def normal_ratio(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """−|**H**|²/(**H**·**A**) by the star's own orientation, also where the surface has none."""
-    product, square = dot(H_vec, star_vector), dot(H_vec, H_vec)
-    kept = np.abs(product) >= LOST * np.sqrt(square * dot(star_vector, star_vector))
-    quotient = ratio(square, np.abs(product), kept & pointed(surface, star_vector, star_area))
+    product, square, area_square = dot(H_vec, star_vector), dot(H_vec, H_vec), dot(star_vector, star_vector)
+    kept = np.abs(product) >= LOST * np.sqrt(square * area_square)
+    quotient = ratio(square, np.abs(product), kept & pointed(surface, np.sqrt(area_square), star_area))
     return np.where(product < 0, quotient, 0.0 - quotient)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..blocks import dot
 from ..declare import Column, VectorColumn, curvature_pass
 from ..surface import Surface
@@ -48,7 +50,8 @@ def willmore_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Co
 )
 def willmore_perp(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Willmore energy of the star from h_perp; needs no global orientation."""
-    perp = ratio(dot(H_vec, star_vector), dot(star_vector, star_vector), pointed(surface, star_vector, star_area))
+    square = dot(star_vector, star_vector)
+    perp = ratio(dot(H_vec, star_vector), square, pointed(surface, np.sqrt(square), star_area))
     return perp * perp * star_area
 
 

@@ -7,15 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from ..blocks import cross, dot, triangles
+from ..blocks import LOST, cross, dot, triangles
 from ..slices import slices
 from .boundary import Boundary
 from .frames import unit
 from .polygon import Floats, Mask
 from .turning import Turning
-
-# A vector area below this part of the area has lost its direction to rounding.
-_FLAT = 1e-12
 
 
 @dataclass(frozen=True)
@@ -72,7 +69,7 @@ class Darboux:
         sign = self.boundary.surface.corner_sign
         star = 1 if sign is None else sign.ravel()[self.boundary.corner]
         vector = vector * np.where(self.boundary.forward, star, -star)
-        vector = np.where(dot(vector, vector) > (_FLAT * area) ** 2, vector, np.nan)
+        vector = np.where(dot(vector, vector) > (LOST * area) ** 2, vector, np.nan)
         tangent = unit(curves.tangent[:, curves.preceding] + curves.tangent)
         tangent[:, self._turning.reversed | (beside < 0) | ~curves.inner] = np.nan
         return unit(vector - tangent * dot(vector, tangent))
