@@ -151,9 +151,9 @@ def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]
     xyz: (3, n). Positions that are not finite stay alone.
     Errors: InputError where so many positions are that near to one another that their pairs would not fit in memory.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
+
+    from ..topology import label_graph
 
     n = xyz.shape[1]
     lowest = np.arange(n, dtype=np.int32)
@@ -179,9 +179,8 @@ def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]
             hint="a smaller --weld TOL, or `--weld exact`",
         )
     pairs = tree.query_pairs(reach, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    _, label = connected_components(graph, directed=False)
-    lead = np.full(label.max() + 1, n, np.int64)
+    groups, label = label_graph(count, *pairs.T)
+    lead = np.full(groups, n, np.int64)
     np.minimum.at(lead, label, finite[first])
     lowest[finite] = lead[label[number]]
     return lowest
