@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blocks import cross, dot
 from ..errors import Notice
 from .ears import EFFORT_PER_CORNER, clip_ears
 from .model import MeshFile
@@ -84,13 +85,9 @@ def _from_first(p: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(d / np.where(size > 0, size, 1.0)[:, None])
 
 
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-
-
 def _area_vectors(d: NDArray[np.float64]) -> NDArray[np.float64]:
     """Twice the area vectors (3, n) of polygons seen from their first corner."""
-    return np.asarray(_cross(d[:, :, 1:-1], d[:, :, 2:]).sum(-1))
+    return np.asarray(np.array(cross(d[:, :, 1:-1], d[:, :, 2:])).sum(-1))
 
 
 def _is_convex(p: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -102,8 +99,8 @@ def _is_convex(p: NDArray[np.float64]) -> NDArray[np.bool_]:
     with np.errstate(invalid="ignore", over="ignore"):
         normal = _area_vectors(d)[:, :, None]
         step = np.roll(d, -1, 2) - d
-        turn = (_cross(step, np.roll(step, -1, 2)) * normal).sum(0)
-        fan = (_cross(d[:, :, 1:-1], d[:, :, 2:]) * normal).sum(0)
+        turn = dot(cross(step, np.roll(step, -1, 2)), normal)
+        fan = dot(cross(d[:, :, 1:-1], d[:, :, 2:]), normal)
         return np.asarray((turn >= 0).all(1) & (fan >= 0).all(1) | ~np.isfinite(d).all((0, 2)))
 
 
