@@ -92,7 +92,7 @@ def _words(name: str, one: Cells, other: Cells) -> MovedColumn | None:
 def _moved(name: str, one: Cells, other: Cells, typical: float, noise: float, tolerance: Tolerance) -> Any:
     with np.errstate(invalid="ignore", over="ignore"):
         size = np.maximum(np.maximum(np.abs(one), np.abs(other)), typical)
-        allowed = tolerance.atol + tolerance.rtol * size + (noise if tolerance.rtol > 0 else 0.0)
+        allowed = tolerance.allowed(size, noise)
         gap = np.abs(one - other)
     only_one = np.isnan(one) != np.isnan(other)
     beyond = (gap > allowed) & (one != other)

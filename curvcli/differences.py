@@ -13,7 +13,10 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from .declare import Quantity, passes
 from .pipeline import load_passes
@@ -27,6 +30,7 @@ _LOOP = {"length": 1, "total_curvature": 0, "sum_kappa_g": 0, "vector_area": 2, 
 _LOOP |= {"holonomy": 0, "writhe": 0, "twist": 0}
 
 Key = tuple[str, ...]
+Size = TypeVar("Size", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
@@ -36,8 +40,8 @@ class Tolerance:
     rtol: float = 1e-9
     atol: float = 0.0
 
-    def allowed(self, size: float, noise: float) -> float:
-        """The largest move of a number of this size."""
+    def allowed(self, size: Size, noise: float) -> Size:
+        """The largest move of a number of this size, or of each of several."""
         return self.atol + self.rtol * size + (noise if self.rtol > 0 else 0.0)
 
 
