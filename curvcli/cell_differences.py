@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .blocks import EPSILON
 from .declare import passes
-from .differences import DEFAULT, EPSILON, EVERYTHING, Difference, Tolerance, noise_of, stem
+from .differences import DEFAULT, EVERYTHING, Difference, Tolerance, noise_of, stem
 from .pipeline import load_passes
 
 Cells = NDArray[Any]

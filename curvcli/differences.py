@@ -18,10 +18,10 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .blocks import EPSILON
 from .declare import Quantity, passes
 from .pipeline import load_passes
 
-EPSILON = 2.0**-52
 STATISTICS = ("min", "max", "mean", "area_mean", "std", "p02", "median", "p98")
 # Differences of nearly equal numbers under a root lose half of the digits: κ₁ − κ₂ at umbilics.
 ROOTS = frozenset({"kappa_1", "kappa_2", "shape_index", "curvedness"})

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..blocks import EPSILON
 from .frames import Bishop, defined_round, shortest
 from .plane import PlaneCurves
-from .polygon import EPSILON, Curves, Floats, Mask
+from .polygon import Curves, Floats, Mask
 from .turning import Turning
 
 

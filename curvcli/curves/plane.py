@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..blocks import cross, dot
+from ..blocks import EPSILON, cross, dot
 from .frames import unit
-from .polygon import EPSILON, Curves, Floats, Mask, Rows
+from .polygon import Curves, Floats, Mask, Rows
 from .turning import Turning
 
 

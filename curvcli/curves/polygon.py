@@ -14,8 +14,6 @@ Floats = NDArray[np.float64]
 Rows = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-EPSILON = float(np.finfo(np.float64).eps)
-
 
 def scaled(values: Floats, power: Rows | NDArray[np.int32]) -> Floats:
     """Values times 2 to a power; NaN where no double holds them."""

@@ -7,7 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from .polygon import EPSILON, Curves, Floats, Mask
+from ..blocks import EPSILON
+from .polygon import Curves, Floats, Mask
 
 # Sums and differences of unit tangents below this are rounding: the edges run on, or turn back, in one line.
 _ROUNDING = 4 * EPSILON

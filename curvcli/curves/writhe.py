@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blocks import EPSILON
 from ..errors import UsageError
-from .polygon import EPSILON, Curves, Floats, Rows
+from .polygon import Curves, Floats, Rows
 
 MAX_EDGES = 20_000
 """Edges of the largest double sum that is done unless more is asked for: some ten seconds."""
