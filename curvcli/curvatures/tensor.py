@@ -27,11 +27,17 @@ def frame(normal: VectorColumn) -> tuple[Floats, Floats]:
     return u, v
 
 
-def half_gap(tensor: Floats, normal: VectorColumn) -> Floats:
-    """Half the difference (≥ 0) of the two tangential eigenvalues of a tensor (6, n); normal (3, n), of unit length."""
+def _entries(tensor: Floats, normal: VectorColumn) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+    """The frame u, v of each unit normal, and the tensor's entries in it: those of uu, vv and uv."""
     u, v = frame(normal)
     image_u, image_v = ([dot(tensor[row], w) for row in WHERE] for w in (u, v))
-    return np.asarray(np.hypot(0.5 * (dot(u, image_u) - dot(v, image_v)), dot(u, image_v)))
+    return u, v, dot(u, image_u), dot(v, image_v), dot(u, image_v)
+
+
+def half_gap(tensor: Floats, normal: VectorColumn) -> Floats:
+    """Half the difference (≥ 0) of the two tangential eigenvalues of a tensor (6, n); normal (3, n), of unit length."""
+    _, _, uu, vv, uv = _entries(tensor, normal)
+    return np.asarray(np.hypot(0.5 * (uu - vv), uv))
 
 
 def tangential(tensor: Floats, normal: VectorColumn) -> tuple[Floats, Floats, Floats, Floats]:
@@ -40,14 +46,12 @@ def tangential(tensor: Floats, normal: VectorColumn) -> tuple[Floats, Floats, Fl
 
     tensor: (6, n). normal: (3, n), of unit length.
     """
-    u, v = frame(normal)
-    image_u, image_v = ([dot(tensor[row], w) for row in WHERE] for w in (u, v))
-    uu, vv, off = dot(u, image_u), dot(v, image_v), dot(u, image_v)
+    u, v, uu, vv, uv = _entries(tensor, normal)
     half = 0.5 * (uu - vv)
-    # Turned by half the angle of (half, off), u goes to the eigenvector of the larger eigenvalue.
-    turn = 0.5 * np.arctan2(off, half)
+    # Turned by half the angle of (half, uv), u goes to the eigenvector of the larger eigenvalue.
+    turn = 0.5 * np.arctan2(uv, half)
     larger = np.cos(turn) * u + np.sin(turn) * v
-    return 0.5 * (uu + vv), np.hypot(half, off), larger, np.array(cross(normal, larger))
+    return 0.5 * (uu + vv), np.hypot(half, uv), larger, np.array(cross(normal, larger))
 
 
 def line(vector: VectorColumn) -> VectorColumn:
