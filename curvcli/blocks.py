@@ -99,10 +99,6 @@ class Triangles:
         extent: Floats = np.sqrt(1.5 * self.half_squares)
         return extent
 
-    def opposite(self, corner: int) -> Vector:
-        """The edge opposite a corner, counterclockwise."""
-        return (self.v, [-x for x in self.w], self.u)[corner]
-
 
 def by_corner(faces: Index) -> NDArray[np.intp]:
     """(3, n) the corners of some faces, one contiguous row for each, in the type that numpy gathers and scatters by."""
