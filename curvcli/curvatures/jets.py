@@ -27,7 +27,6 @@ _LOST, _SINGULAR, _WEAK = 1e-12, 1e4, 1e4
 _NOISE = 3.0
 # Points beyond the terms without which the residuals tell nothing about the noise.
 _SPARE = 4
-_ROUNDS = 1
 
 
 @dataclass(frozen=True)
@@ -62,13 +61,12 @@ def fit(given: Moments) -> Jets:
     kept[QUADRATIC:_CUBIC] *= _signal(terms[QUADRATIC:_CUBIC], residual, freedom)
     kept[_CUBIC:] = 0.0
     found = _solve(lower, kept, np.zeros((_COUNT - _CUBIC, len(determined))))
-    for _ in range(_ROUNDS):
-        expected = _quartic(found)
-        # What is expected of degree 4 is taken away from the heights before the groups are weighed.
-        rest = terms - np.einsum("kij,kj->ij", lower[_CUBIC:_COUNT, :_COUNT], expected)
-        rest[QUADRATIC:_CUBIC] *= third * _signal(rest[QUADRATIC:_CUBIC], residual, freedom)
-        rest[_CUBIC:] *= fourth * _signal(rest[_CUBIC:], residual, freedom)
-        found = _solve(lower, rest, expected)
+    expected = _quartic(found)
+    # What is expected of degree 4 is taken away from the heights before the groups are weighed.
+    rest = terms - np.einsum("kij,kj->ij", lower[_CUBIC:_COUNT, :_COUNT], expected)
+    rest[QUADRATIC:_CUBIC] *= third * _signal(rest[QUADRATIC:_CUBIC], residual, freedom)
+    rest[_CUBIC:] *= fourth * _signal(rest[_CUBIC:], residual, freedom)
+    found = _solve(lower, rest, expected)
     determined &= np.isfinite(found).all(axis=0)
     found[:, ~determined] = np.nan
     hessian = found[3:6] * np.array([2.0, 1.0, 2.0])[:, None]
