@@ -49,7 +49,7 @@ class Segments:
         sums = np.zeros(self.count)
         filled = per_group > 0
         if filled.any():
-            sums[filled] = np.add.reduceat(plain[order], start[filled])[: int(filled.sum())]
+            sums[filled] = np.add.reduceat(plain[order], start[filled])
         return sums
 
     def count_true(self, mask: NDArray[np.bool_]) -> NDArray[np.int64]:

@@ -38,8 +38,9 @@ def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorCol
     gap[walked] = np.abs(np.remainder(angle - K[walked] + np.pi, 2 * np.pi) - np.pi)
     # Each step rotates by a few ε, and K itself is a sum of as many angles of up to π.
     faces = np.where(inside, count, 0).astype(np.float64)
-    tolerance = (16 + np.log2(np.maximum(groups.vertices.max(faces), 2.0))) * EPSILON
-    tolerance = tolerance * np.pi * np.maximum(groups.vertices.max(faces), 1.0)
+    most = groups.vertices.max(faces)
+    tolerance = (16 + np.log2(np.maximum(most, 2.0))) * EPSILON
+    tolerance = tolerance * np.pi * np.maximum(most, 1.0)
     residual = groups.vertices.max(gap)
     left_out = groups.vertices.count_true(inside & np.isnan(gap))
 
