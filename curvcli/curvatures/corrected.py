@@ -64,28 +64,38 @@ def corrected_measures(surface: Surface, scale: Scale, fitted_normal: VectorColu
 
 @curvature_pass(
     symbol="K̂",
-    formula="Σμ₂/Σμ₀ over the neighbourhood, μ₀ = ½⟨ū, d₁ × d₂⟩, μ₂ = ½⟨u₀, u₁ × u₂⟩; sharpened",
+    formula="Σμ₂/Σμ₀ over the neighbourhood, sharpened; of each face μ₀ = ½⟨ū, d₁ × d₂⟩ and μ₂ = ½⟨u₀, u₁ × u₂⟩",
     kind="density",
     length_exponent=-2,
     signed=True,
     **_SHARED,
 )
 def K_corrected(corrected_gauss: Column) -> Column:
-    """Gauss curvature estimated from interpolated normals at the scale of --rings or --radius."""
+    """Gauss curvature estimated from interpolated normals at the scale of --rings or --radius.
+
+    Of a face u₀, u₁, u₂ are the normals at its corners, ū is their mean, and d₁, d₂ are its edges from corner 0.
+    Sharpened: 2x̄ − x̿, where x̄ is the quotient and x̿ what comes of averaging it once more.
+    """
     return corrected_gauss
 
 
+_TENSOR_OF_A_FACE = (
+    "\n\nOf each face μ_XY is the symmetric part of ½(e₁ ⊗ (d₂ × ū) + e₂ ⊗ (ū × d₁)), in the letters of h_corrected."
+)
 _DENSITY: dict[str, Any] = {"kind": "density", "length_exponent": -1, "parity": "odd", "signed": True, **_SHARED}
 
 
 @curvature_pass(
     symbol="Ĥ",
-    formula="Σμ₁/Σμ₀, μ₁ = ½⟨ū, e₁ × d₂ + d₁ × e₂⟩, d and e the differences of positions and of normals; sharpened",
+    formula="Σμ₁/Σμ₀ over the neighbourhood, sharpened; of each face μ₁ = ½⟨ū, e₁ × d₂ + d₁ × e₂⟩",
     mean_degree=1,
     **_DENSITY,
 )
 def h_corrected(surface: Surface, corrected_tensor: Column) -> Column:
-    """Mean curvature κ₁ + κ₂ estimated from interpolated normals, positive where convex."""
+    """Mean curvature κ₁ + κ₂ estimated from interpolated normals, positive where convex.
+
+    The letters are those of K_corrected; e₁ = u₁ − u₀ and e₂ = u₂ − u₀.
+    """
     return null_where(surface.without_orientation, corrected_tensor[0] + corrected_tensor[3] + corrected_tensor[5])
 
 
@@ -94,16 +104,16 @@ def h_corrected(surface: Surface, corrected_tensor: Column) -> Column:
         Quantity(
             "kappa_1_corrected",
             symbol="κ̂₁",
-            formula="Ĥ/2 + half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
-            description="Larger principal curvature estimated from interpolated normals.",
+            formula="Ĥ/2 + half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀, sharpened",
+            description=f"Larger principal curvature estimated from interpolated normals.{_TENSOR_OF_A_FACE}",
             partner="kappa_2_corrected",
             **_DENSITY,
         ),
         Quantity(
             "kappa_2_corrected",
             symbol="κ̂₂",
-            formula="Ĥ/2 − half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀; sharpened",
-            description="Smaller principal curvature estimated from interpolated normals.",
+            formula="Ĥ/2 − half the difference of the tangential eigenvalues of Σμ_XY/Σμ₀, sharpened",
+            description=f"Smaller principal curvature estimated from interpolated normals.{_TENSOR_OF_A_FACE}",
             partner="kappa_1_corrected",
             **_DENSITY,
         ),
@@ -130,7 +140,7 @@ _LINE: dict[str, Any] = {"kind": "direction", "vector": True, **_SHARED}
         Quantity(
             "dir_1_corrected",
             symbol="**ê**₁",
-            formula="tangential eigenvector of Σμ_XY to the larger eigenvalue",
+            formula="tangential eigenvector, to the larger eigenvalue, of Σμ_XY/Σμ₀ as for kappa_1_corrected",
             description="Direction of kappa_1_corrected, a line; null also at umbilics and without an orientation.",
             partner="dir_2_corrected",
             **_LINE,
@@ -138,7 +148,7 @@ _LINE: dict[str, Any] = {"kind": "direction", "vector": True, **_SHARED}
         Quantity(
             "dir_2_corrected",
             symbol="**ê**₂",
-            formula="tangential eigenvector of Σμ_XY to the smaller eigenvalue",
+            formula="tangential eigenvector, to the smaller eigenvalue, of Σμ_XY/Σμ₀ as for kappa_1_corrected",
             description="Direction of kappa_2_corrected, a line; null also at umbilics and without an orientation.",
             partner="dir_1_corrected",
             **_LINE,
