@@ -24,9 +24,10 @@ from .tensor import ENTRIES, WHERE, frame
 _PAIRS = 16384
 # How much less the normal of a vertex with half a star counts.
 _ONE_SIDED = 2.0**-10
-# A full step averages away what alternates between neighbours. What neighbours err alike it turns round, and the next
-# one back again along with the step's own error of third order: their number is even. Their sizes lie about 1 so that
-# together they leave least of those errors of which a full step leaves up to this part.
+# A full step multiplies each error of the normals by some r. What all neighbours err alike has r = −1, and the
+# condition's own term of third order alternates along with it: steps come in pairs, which leave both as they were. A
+# pair of sizes 1/(1 ± √y) multiplies any other error by (r² − y)/(1 − y). With y the roots of a Chebyshev polynomial on
+# [0, _LEFT²], the largest product of these for |r| ≤ _LEFT is the least possible.
 _LEFT = 0.75
 # Over one ring there is little to average, and two damped steps leave less.
 _DAMPED = (0.7, 0.7)
