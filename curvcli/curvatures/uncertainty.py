@@ -22,8 +22,8 @@ from ..topology import Index
 from .star import null_where
 
 _EDGES = 8192
-# **H**_p has a direction of its own where it is longer than this part of √area, and than this many times the noise, of
-# which about so much goes into it; else noise turns it to the normal.
+# **H**_p has a direction of its own if it is longer than _FLAT · √|**A**_p| and than _NOISY times the noise of the
+# coordinates, about as much of which reaches it; a shorter one is noise, and the normal stands for its direction.
 _FLAT, _NOISY = 1e-9, 4.0
 
 
@@ -93,7 +93,8 @@ def angle_defect_uncertainty(surface: Surface, noise: float | None, K: Column) -
 def h_sigma(surface: Surface, noise: float | None, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
     """Standard deviation of h_signed under independent noise of each coordinate (`--noise`).
 
-    ∂h = (Ĥ·∂**H** − h Â·∂**A**)/|**A**|, from the derivatives of every triangle's share of **H** and **A**.
+    ∂h = (u·∂**H** − h n·∂**A**)/|**A**|, u = **H**/|**H**| and n = **A**/|**A**|, from the derivatives of every
+    triangle's share of **H** and **A**.
     """
     n = surface.n_vertices
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -152,7 +153,8 @@ def _sides(surface: Surface) -> Iterator[_Sides]:
 def _mean_shares(sides: _Sides, along: VectorColumn, up: VectorColumn, h: Column) -> Iterator[Floats]:
     """What each face adds to |**A**_p| ∂h_p/∂q, for the half-edge's tail as p and its head as q, and the other way.
 
-    The face p, q, r adds F = −½ Ĥ·(ν × d) to Ĥ·**H**_p, d = r − q, and ν changes by ∂N − ν(ν·∂N) over |N|.
+    The face p, q, r adds F = −½ u·(ν × d) to u·**H**_p, u = **H**_p/|**H**_p| and d = r − q. Its normal ν = N/|N|
+    changes by ∂N − ν(ν·∂N) over |N|.
     """
     t = sides.faces
     nu = [x / t.twice_area for x in t.normal]
