@@ -86,7 +86,7 @@ Triple = tuple[DoubleDouble, DoubleDouble, DoubleDouble]
 def corner_products(xyz: Floats, corners: tuple[NDArray[Any], ...]) -> tuple[Triple, DoubleDouble]:
     """At each corner of triangles the dot product of the two edges that leave it, and twice the area.
 
-    xyz: (3, V). corners: three index arrays. The area is good to 1e-30 of longest edge²/area.
+    xyz: (3, V). corners: three index arrays. The area's relative error is about 1e-30 · (longest edge)² / area.
     """
     p, q, r = ([x[corner] for x in xyz] for corner in corners)
     u, v, w = (

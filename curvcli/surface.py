@@ -65,7 +65,7 @@ class Surface(Incidence):
 
     points: (V, 3) float64 in the file's unit and order. faces: (F, 3) int32 as wound in the file; faces with a repeated
     corner are dropped and counted (`notices`, code `repeated_corner_faces`).
-    polygon: (F,) the polygon of the file, or the triangle given, that each face came from; None if all are the same.
+    polygon: (F,) the polygon of the file, or the triangle given, that each face came from; None if face f is polygon f.
     Errors: InputError for a corner out of range, a coordinate of a face that is not finite, or no face at all.
     """
 
