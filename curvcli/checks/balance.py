@@ -147,7 +147,7 @@ def vector_area(
     swept = [0.5 * part * times for part in cross(a, b)]
     expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)
     span = 0.5 * np.sqrt(dot(a, a)) * np.sqrt(dot(b, b)) * np.abs(times)
-    # The area vector of a needle has the error of a product of its edges, to twice the digits.
+    # A needle's area vector, computed to twice the digits, still has an error of ε² times a product of its edges.
     needles = EPSILON * groups.vertices.sum(star_extent**2)
     outcome = Outcome(
         value,

@@ -93,7 +93,7 @@ def _differences(
             swept = np.array(cross(q - moved, r - moved))
             change = way / (2 * step)
             area[axis] += np.bincount(member, np.sqrt(dot(swept, swept)) / 2, minlength=count) * change
-            # The volume over the face, about p: only the base of the tetrahedron that p's motion spans changes.
+            # The volume changes by that of the tetrahedron with corners p, p + moved, q and r.
             volume[axis] += np.bincount(member, sign * dot(moved, swept) / 6, minlength=count) * change
     faces = np.bincount(member, minlength=count)
     square = np.where(height > 0, height * height, np.nan)

@@ -58,7 +58,7 @@ def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Col
     counts = census(surface, groups)
     value = groups.vertices.sum(dot_offset(surface, A_vec))
     expected = 3 * volumes(surface, groups)
-    # The area vector of a needle has the error of a product of its edges, to twice the digits.
+    # A needle's area vector, computed to twice the digits, still has an error of ε² times a product of its edges.
     sizes = 3 * star_area + EPSILON * star_extent**2
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, sizes)))
     outcome = Outcome(value, expected, tolerance, length_exponent=3, detail="Σ p·A_p against three times the volume")

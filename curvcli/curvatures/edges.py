@@ -66,7 +66,8 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
         one, other, forward, against = _sides(surface, edges)
         nu, mu = ([x.take(face) for x in unit_normal] for face in (one, other))
         along = span(surface.xyz, edges.a, edges.b)
-        # With the file's windings made to agree, the one face is on the left where its half-edge runs from a to b.
+        # agree: −1 where the file winds the two faces against each other, so that mu counts with the other sign. The
+        # one face is on the left of the edge from a to b where its half-edge runs that way.
         agree = np.where(forward != against, 1.0, -1.0)
         side = np.where(forward, agree, -agree)
         if face_sign is not None:

@@ -128,12 +128,13 @@ def _curvatures(given: Moments, jets: Jets) -> tuple[Floats, Floats]:
     p, q = jets.gradient
     # A graph that bends down, away from its normal, is convex seen from there.
     a, b, d = -jets.hessian / np.sqrt(1 + p * p + q * q)
+    # R = ((first, 0), (skew, second)); a, b, d turn from the entries of II into those of the shape operator.
     first = np.sqrt(1 + p * p)
     skew = p * q / first
     second = np.sqrt(1 + p * p + q * q) / first  # √(1 + q² − skew²) without its cancellation
     a, b = a / (first * first), b / first
     b = (b - skew * a) / second
-    # d − 2 skew (mixed) + skew² a with the mixed entry already orthonormal.
+    # (d − 2 skew b₀ + skew² a)/second², where b₀ = second · b + skew · a is b before the last step.
     d = (d - 2 * skew * second * b - skew * skew * a) / (second * second)
     half, gap = 0.5 * (a + d), np.hypot(0.5 * (a - d), b)
     turn = 0.5 * np.arctan2(b, 0.5 * (a - d))

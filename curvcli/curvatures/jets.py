@@ -19,8 +19,8 @@ _POWERS = [(degree - j, j) for degree in range(5) for j in range(degree + 1)]
 _COUNT = len(_POWERS)
 # Terms up to degree 2, 3 and 4; a fit needs as many points.
 QUADRATIC, _CUBIC, _QUARTIC = 6, 10, 15
-# What is left of a column of the design after those before it, squared and as a part of its length, where rounding has
-# eaten it; the condition from which on there is no fit, and the dilution from which on a degree is left out.
+# A column of the design is lost to rounding where those before it leave less than _LOST of its square. There is no fit
+# from the condition _SINGULAR on, and a degree is left out from the dilution _WEAK on (see `_dilution`).
 _LOST, _SINGULAR, _WEAK = 1e-12, 1e4, 1e4
 # A group of terms is noise where the mean square of its coefficients is not well above that of the residuals: the
 # quotient F is compared with this times 1 + 12/(degrees of freedom), about the 99 % quantile of its distribution.

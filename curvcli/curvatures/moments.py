@@ -21,7 +21,7 @@ from .tensor import frame
 
 # The highest power of a coordinate in the products of two monomials of degree 4, and of x beside z.
 _PRODUCT, _BESIDE = 8, 4
-# Powers of x and z; of y and z yʲ.
+# The factors of all products: 1, x, …, x⁸, z on one side; 1, y, …, y⁸, z, zy, …, zy⁴ on the other.
 _POWERS = 2 * _PRODUCT + 4 + _BESIDE
 # Entries of a table that stay in the second-level cache with all of their powers; vertices that are solved together.
 _ENTRIES, _ROWS = 1 << 14, 1 << 13
@@ -63,7 +63,8 @@ class Moments:
 
 
 def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> Iterator[Callable[[], Moments]]:
-    """Moments of the neighbourhoods of all manifold vertices with at least so many points and a normal, to be called.
+    """Functions that work out the moments of neighbourhoods, each of some vertices, together of all manifold vertices
+    with a normal and at least so many points.
 
     star_vector: (3, V) vector areas of the stars. The normal is that of the vertex and its neighbours together; where
     the surface has no orientation, that of the vertex alone.

@@ -22,7 +22,7 @@ from .tensor import ENTRIES, WHERE, frame
 
 # Pairs of neighbours per block; temporaries stay in the second-level cache.
 _PAIRS = 16384
-# How much less the normal of a vertex with half a star counts.
+# The weight of a normal that half a star made, at the boundary; inside it is 1.
 _ONE_SIDED = 2.0**-10
 # A full step multiplies each error of the normals by some r. What all neighbours err alike has r = −1, and the
 # condition's own term of third order alternates along with it: steps come in pairs, which leave both as they were. A
@@ -31,9 +31,9 @@ _ONE_SIDED = 2.0**-10
 _LEFT = 0.75
 # Over one ring there is little to average, and two damped steps leave less.
 _DAMPED = (0.7, 0.7)
-# Chords that lie so nearly in one direction fix no normal.
+# Below this determinant, in squares of the trace, chords lie so nearly in one direction that they fix no normal.
 _IN_LINE = 1e-6
-# Chords shorter than this part of the component, squared, are lost in moments about its middle.
+# Mean squares of chords below this part of the component's squared extent are lost in moments about its middle.
 _LOST = 1e-10
 
 

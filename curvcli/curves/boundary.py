@@ -134,8 +134,8 @@ def _mates(surface: Surface, fans: Fans, half_edge: Rows) -> tuple[Rows, Mask]:
     alike = np.flatnonzero(fan[order[1:]] == fan[order[:-1]])
     partner = np.full(2 * count, -1)
     partner[order[alike]], partner[order[alike + 1]] = order[alike + 1], order[alike]
-    # Edge e arrives at its head (end B + e), edge B + e at its tail (end e); at end x < B one leaves along x, at end
-    # B + x against it, along B + x.
+    # End e < B is the tail of edge e, end B + e its head. Directed edge e arrives at end B + e, B + e at end e; from an
+    # end x it is directed edge x that leaves, for both kinds alike.
     mate = np.concatenate([partner[count:], partner[:count]])
     return mate, forward
 
@@ -176,6 +176,7 @@ def _walk(mate: Rows, descending: Mask) -> tuple[Rows, Rows, Mask]:
 
 
 def _thread(mate: Rows, back: Rows, curve: Rows, first: Rows, closed: Mask) -> tuple[Rows, Rows, Mask]:
+    """The same, given what precedes each directed edge, its curve (-1: left out), and the first edge of each curve."""
     used = curve >= 0
     onward = np.where(used, mate, -1)
     last = np.empty(len(first), np.int64)

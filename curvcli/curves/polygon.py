@@ -95,7 +95,7 @@ class Curves:
 
     @cached_property
     def _safe(self) -> tuple[Floats, int]:
-        """Positions whose differences are doubles, in units of 2 to a power: 0 but at the end of their range."""
+        """Positions in units of 2 to a power, so that no difference overflows: power 0 but at the end of the range."""
         if np.abs(self.xyz).max(initial=0.0) < 2.0**1020:
             return self.xyz, 0
         return np.ldexp(self.xyz, -4), 4
