@@ -65,9 +65,19 @@ def _count(surface: Surface, groups: Groups) -> Census:
         boundary == 0,
         (many == 0) & (split == 0),
         orientable,
-        ~groups.edges.any(surface.winding_conflicts),
+        ~groups.edges.any(_winding_conflicts(surface)),
         ~groups.edges.any(uncancelled),
     )
+
+
+def _winding_conflicts(surface: Surface) -> Mask:
+    """(E,) edges with n_e = 2 whose two faces run along them the same way as the file winds them."""
+    if surface.cut_from is None or surface.cut_from.turned is None:
+        return surface.winding_conflicts
+    one, other = (surface.cut_from.turned[half_edges // 3] for half_edges in surface.edges.pairs)
+    conflict = surface.winding_conflicts.copy()
+    conflict[surface.edges.inner] ^= one != other
+    return conflict
 
 
 @dataclass(frozen=True)
@@ -112,6 +122,9 @@ def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
 
 
 def _duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
+    if surface.cut_from is not None:  # which has a vertex of its own for every piece that meets there
+        there = surface.cut_from
+        return np.flatnonzero(np.isin(there.vertex, duplicate_vertices(there.surface)))
     shared = _shared_keys(lambda: position_keys(surface.xyz_given))
     suspects = np.flatnonzero(shared & surface.referenced)
     first, _ = weld_exact(surface.xyz_given[:, suspects])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from .census import census
 from .errors import InputError, Notice, UsageError
 from .groups import Groups, by_label
-from .surface import Surface
+from .surface import CutFrom, Surface
 from .topology import Index
 
 LABELS = ("groups", "objects", "materials")
@@ -122,15 +122,16 @@ def _read_lines(path: str) -> NDArray[Any]:
 def cut_apart(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
     """The surface with every region on vertices of its own, oriented as the whole is, and its regions as groups."""
     inside = regions.face >= 0
-    faces = surface.faces.copy()
+    faces, label = surface.faces[inside], regions.face[inside]
+    turned = None
     if surface.orientation.face_sign is not None:
-        turned = surface.orientation.face_sign < 0
+        turned = surface.orientation.face_sign[inside] < 0
         faces[turned] = faces[turned][:, [0, 2, 1]]
-    faces, label = faces[inside], regions.face[inside]
     corner = np.repeat(label.astype(np.int64), 3) * surface.n_vertices + faces.ravel()
     own, position = np.unique(corner, return_inverse=True)
-    points = surface.points[own % surface.n_vertices]
-    cut = Surface(points, position.reshape(-1, 3).astype(np.int32))
+    vertex = own % surface.n_vertices
+    cut_from = CutFrom(surface, vertex, turned)
+    cut = Surface(surface.points[vertex], position.reshape(-1, 3).astype(np.int32), cut_from=cut_from)
     return cut, by_label(cut, label, regions.count, "region", regions.names)
 
 

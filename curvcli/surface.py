@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arrays import as_components, as_triangles, frozen
-from .blocks import signed_volumes
+from .blocks import signed_volumes, volume_errors
 from .errors import InputError, Notice
 from .groups import Groups, by_label, whole
 from .incidence import Incidence
@@ -60,6 +60,18 @@ _OF_EDGES = (
 )
 
 
+class CutFrom(NamedTuple):
+    """The surface that another one was cut out of.
+
+    vertex: (V,) the vertex there of each vertex here. turned: (F,) faces that are wound here as that surface is
+    oriented, and there the other way; None if there are none.
+    """
+
+    surface: Surface
+    vertex: NDArray[np.integer]
+    turned: Mask | None
+
+
 class Surface(Incidence):
     """A triangle mesh: points and faces, frozen, with its edges, stars, components and orientation.
 
@@ -77,6 +89,7 @@ class Surface(Incidence):
         orient: Literal["file", "outward"] = "file",
         polygon: Index | None = None,
         file: MeshFile | None = None,
+        cut_from: CutFrom | None = None,
         notices: Sequence[Notice] = (),
     ) -> None:
         self.xyz_given = as_components(points)
@@ -101,6 +114,7 @@ class Surface(Incidence):
         self.faces.setflags(write=False)
         self.polygon = polygon
         self.file = file
+        self.cut_from = cut_from
         self.orient = orient
         self._check_finite()
 
@@ -225,13 +239,18 @@ class Surface(Incidence):
     @cached_property
     @frozen
     def inside_out(self) -> Mask:
-        """(patches,) closed orientable patches whose volume is negative as the file winds them."""
+        """(patches,) closed orientable patches whose volume is negative, beyond rounding, as the file winds them."""
         found = self._file_orientation
         candidates = self.closed_patches & found.orientable
         if not candidates.any():
             return candidates
         volume = self.face_volumes if found.face_sign is None else self.face_volumes * found.face_sign
-        return candidates & (np.bincount(found.patch, volume, minlength=len(candidates)) < 0)
+        negative = candidates & (np.bincount(found.patch, volume, minlength=len(candidates)) < 0)
+        if negative.any():
+            chosen = np.flatnonzero(negative[found.patch])
+            volume = volume[chosen] + volume_errors(self, self.components.face, chosen)
+            negative &= np.bincount(found.patch[chosen], volume, minlength=len(negative)) < 0
+        return negative
 
     @cached_property
     @frozen
