@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import EPSILON, cross, dot
+from .blocks import EPSILON, LOST, cross, dot
 from .census import census, classify
 from .declare import Quantity, passes
 from .groups import Groups
@@ -79,17 +79,21 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
     """How close to constant mean curvature, over interior vertices: H = −Σ **H**·**A** / Σ|**A**|², positive on convex
     bodies, `residual_max` = max |**H**_p + H **A**_p|, and `H_vec_max` = max |**H**_p|, 0 on minimal surfaces.
 
-    H and its residual are NaN on groups without an orientation and where no vertex is inside.
+    Vertices where **H** is null are left out of both sums. H and its residual are NaN on groups without an orientation,
+    where no vertex is inside, and where all that is left of **A** is rounding: Σ|**A**|² ≤ 1e-24 ΣA².
     """
     vertices, inside = groups.vertices, surface.interior
-    products, squares, sizes = np.full((3, surface.n_vertices), np.nan)
+    products, squares, areas, sizes = np.full((4, surface.n_vertices), np.nan)
     for block in slices(surface.n_vertices):
-        H_vec, A_vec = columns["H_vec"][:, block], columns["A_vec"][:, block]
-        each = dot(H_vec, A_vec), dot(A_vec, A_vec), np.sqrt(dot(H_vec, H_vec))
-        for target, values in zip((products, squares, sizes), each, strict=True):
-            np.copyto(target[block], values, where=inside[block])
+        H_vec, A_vec, area = columns["H_vec"][:, block], columns["A_vec"][:, block], columns["star_area"][block]
+        product = dot(H_vec, A_vec)
+        known = inside[block] & ~np.isnan(product)
+        for target, values in ((products, product), (squares, dot(A_vec, A_vec)), (areas, area * area)):
+            np.copyto(target[block], values, where=known)
+        np.copyto(sizes[block], np.sqrt(dot(H_vec, H_vec)), where=inside[block])
     square = vertices.sum(squares)
-    H = -vertices.sum(products) / np.where(square > np.finfo(np.float64).tiny, square, np.nan)
+    least = np.maximum(LOST * LOST * vertices.sum(areas), np.finfo(np.float64).tiny)
+    H = -vertices.sum(products) / np.where(square > least, square, np.nan)
     residual = squares  # no longer needed
     for block in slices(surface.n_vertices):
         each_H = H[0] if vertices.label is None else np.append(H, np.nan)[vertices.label[block]]
@@ -132,8 +136,8 @@ def competing_normals(surface: Surface, groups: Groups, columns: Mapping[str, An
     angle = np.full(surface.n_vertices, np.nan)
     for block in slices(surface.n_vertices):
         H_vec, A_vec = columns["H_vec"][:, block], columns["star_vector"][:, block]
-        across = cross(H_vec, A_vec)
-        known = surface.interior[block] & (dot(H_vec, H_vec) > 0) & (dot(A_vec, A_vec) > 0)
+        across, length = cross(H_vec, A_vec), np.sqrt(dot(A_vec, A_vec))
+        known = surface.interior[block] & (dot(H_vec, H_vec) > 0) & (length > LOST * columns["star_area"][block])
         np.arctan2(np.sqrt(dot(across, across)), np.abs(dot(H_vec, A_vec)), where=known, out=angle[block])
     with np.errstate(invalid="ignore"):
         mean = groups.vertices.sum(angle) / groups.vertices.count_true(~np.isnan(angle))

@@ -6,8 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from ..blocks import EPSILON
 from ..declare import Column, Flags, Quantity, curvature_pass
 from .star import null_where
+
+# Rounding of an angle defect, of which the root of the radicand takes half the digits.
+_DEFECT = 16 * EPSILON * 2 * np.pi
 
 _SHARED: dict[str, Any] = {
     "kind": "density",
@@ -52,10 +56,11 @@ def principal_curvatures(h_signed: Column, K_density: Column) -> tuple[Column | 
     boundary="null",
     source="Sullivan, Curvatures of smooth surfaces; Koenderink and van Doorn, Surface shape and curvature scales",
 )
-def shape_index(kappa_1: Column, kappa_2: Column) -> Column:
-    """Koenderink's shape index; null at umbilics and planes, where κ₁ = κ₂."""
-    index = (2 / np.pi) * np.arctan2(kappa_1 + kappa_2, kappa_1 - kappa_2)
-    return null_where(kappa_1 == kappa_2, index)
+def shape_index(kappa_1: Column, kappa_2: Column, cell_area: Column) -> Column:
+    """Koenderink's shape index; null at umbilics and planes, where κ₁ − κ₂ is no more than the rounding of K makes."""
+    gap = kappa_1 - kappa_2
+    index = (2 / np.pi) * np.arctan2(kappa_1 + kappa_2, gap)
+    return null_where(gap * gap * cell_area <= 4 * _DEFECT, index)
 
 
 @curvature_pass(
