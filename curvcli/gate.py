@@ -14,6 +14,7 @@ from .checks import Check, rules
 from .errors import UsageError
 from .exits import FAILED_CHECK, OK
 from .pipeline import load_passes
+from .printable import shown
 from .report.check import (
     ASSERTION,
     FAIL,
@@ -24,7 +25,6 @@ from .report.check import (
     CheckedMesh,
     Outcome,
     Rule,
-    printable,
 )
 from .report.model import CONVENTIONS, Remark, Value
 from .requirements import Requirement
@@ -116,9 +116,9 @@ def _of_identity(check: Check, flaw: str) -> Outcome:
     return Outcome(
         check.name,
         IDENTITY,
-        printable(check.scope),
+        shown(check.scope),
         check.status,
-        printable(message),
+        shown(message),
         cast(Value, check.value),
         cast(Value, check.expected),
         check.residual,

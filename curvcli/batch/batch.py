@@ -14,7 +14,7 @@ import msgspec
 
 from .._version import __version__
 from ..exits import FAILED_CHECK, INTERNAL, OK, OUTPUT
-from ..loading.content import shown
+from ..printable import shown
 from .manifest import Manifest
 from .model import Engine, Item, Row, Settings
 from .places import hash_of, is_url, read_url

@@ -10,7 +10,7 @@ from types import TracebackType
 import msgspec
 
 from ..errors import OutputError
-from ..loading.content import shown
+from ..printable import shown
 from .model import Row
 
 NAME = "manifest.jsonl"

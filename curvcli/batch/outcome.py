@@ -6,8 +6,8 @@ import signal
 
 from ..errors import InputError, OutputError, UsageError, defect
 from ..exits import INPUT, INTERNAL, OUTPUT
-from ..loading.content import shown
 from ..memory import ran_out
+from ..printable import shown
 from .model import Limits, Row, Status
 
 

@@ -12,7 +12,8 @@ from typing import Any, cast
 from urllib.parse import unquote, urlsplit
 
 from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
-from ..loading.content import open_regular, read_limited, shown
+from ..loading.content import open_regular, read_limited
+from ..printable import shown
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
 _NOT_FOUND = 404

@@ -8,8 +8,8 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from ..errors import NoMatchError, UsageError
-from ..loading.content import shown
 from ..output.formats import FORMATS, format_of
+from ..printable import shown
 from ..tables import TABLES
 from .model import Item
 from .places import absolute, expand, is_url, listed, local, parts_of, read_url, root_of

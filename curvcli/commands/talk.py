@@ -10,6 +10,7 @@ import traceback
 import click
 
 from ..errors import defect
+from ..printable import shown
 
 # Letters of either end of a message that quotes something very long.
 _SHOWN = 1000
@@ -24,10 +25,10 @@ def say(message: str) -> None:
 
 
 def one_line(text: str) -> str:
-    """Text on one line, control characters shown; of a very long one the beginning and the end."""
+    """Text on one line; of a very long one the beginning and the end."""
     if len(text) > 2 * _SHOWN:
         text = f"{text[:_SHOWN]} … {text[-_SHOWN:]}"
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in " ".join(text.split("\n")))
+    return shown(" ".join(text.split("\n")))
 
 
 def internal(error: BaseException) -> str:

@@ -104,14 +104,6 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
     return b"".join(parts)
 
 
-def shown(text: str) -> str:
-    """The text on one line, what cannot be printed escaped."""
-    text = text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
-
-
 def changed(expected: int, read: int) -> InputError:
     """What is said of a file that is not as long as it was."""
     return InputError(f"{expected} bytes expected, {read} read: the file changed while it was read")

@@ -14,7 +14,8 @@ from typing import Any, BinaryIO, Generic, TypeVar
 
 from ..errors import InputError, UsageError
 from ..memory import require_polars
-from .content import inflate, open_regular, read_limited, shown
+from ..printable import shown
+from .content import inflate, open_regular, read_limited
 from .limits import check_faces
 from .model import MeshFile
 from .pieces import Pieces

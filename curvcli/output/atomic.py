@@ -14,7 +14,8 @@ from types import TracebackType
 from typing import BinaryIO
 
 from ..errors import OutputError
-from .places import STDOUT, Place, beside, probe, resolve, same_file, shown, stream_number
+from ..printable import shown
+from .places import STDOUT, Place, beside, probe, resolve, same_file, stream_number
 
 # What link() says where hard links are unknown or not allowed; everything else is a real failure.
 _NO_HARD_LINKS = {errno.EPERM, errno.EACCES, errno.EOPNOTSUPP, errno.ENOTSUP, errno.ENOSYS, errno.EMLINK, errno.EXDEV}

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..errors import UsageError
+from ..printable import shown
 
 Kind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
 
@@ -61,7 +62,7 @@ def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | N
     suffix = "." + given.lower().lstrip(".")
     if suffix in promised:
         return FORMATS[suffix]
-    where = f"--format {name}" if name is not None else (path if path.isprintable() else ascii(path))
+    where = f"--format {name}" if name is not None else shown(path)
     problem = f"unknown format {given!r}" if given else "a name without a suffix"
     near = difflib.get_close_matches(suffix, promised, n=1)
     guess = f"did you mean {near[0]}? " if near else ""

@@ -10,6 +10,7 @@ import unicodedata
 from dataclasses import dataclass
 
 from ..errors import OutputError
+from ..printable import shown
 
 STDOUT = "-"
 _STREAM_NAMES = {"/dev/stdout": 1, "/dev/stderr": 2}
@@ -22,11 +23,6 @@ class Place:
 
     final: str
     direct: bool
-
-
-def shown(path: str) -> str:
-    """The path as it can stand in a one-line message: escaped where it is not printable text."""
-    return path if path.isprintable() else ascii(path)
 
 
 def resolve(path: str) -> Place:

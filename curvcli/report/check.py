@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 
 from .._version import __version__
+from ..printable import shown
 from .model import Remark, Value, encode
 
 # What `kind` and `status` can be.
@@ -83,7 +84,7 @@ def report_of(rules: list[Rule], meshes: list[CheckedMesh], exit_code: int) -> C
 
 def failed_input(path: str, message: str, exit_code: int) -> CheckedMesh:
     """A mesh that could not be checked."""
-    outcome = Outcome("input", INPUT, "whole", ERROR, printable(message))
+    outcome = Outcome("input", INPUT, "whole", ERROR, shown(message))
     return CheckedMesh(path, None, ERROR, exit_code, None, [outcome], [])
 
 
@@ -99,7 +100,7 @@ def sentence(mesh: CheckedMesh, outcome: Outcome) -> str:
             said = f"{outcome.name} does not apply{on}: {outcome.message}"
         case _:
             said = f"{outcome.name} passes{on}: {outcome.message}"
-    return f"{printable(mesh.path)}: {printable(said)}"
+    return f"{shown(mesh.path)}: {shown(said)}"
 
 
 def number(value: float) -> str:
@@ -108,14 +109,9 @@ def number(value: float) -> str:
     return text if float(text) == value else repr(value)
 
 
-def printable(text: str) -> str:
-    """Text on one line that every format can hold: control characters and stray bytes are shown escaped."""
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
-
-
 def write_json(report: CheckReport) -> bytes:
     """The report as JSON; bytes of a path that are no text are escaped."""
-    meshes = [msgspec.structs.replace(mesh, path=printable(mesh.path)) for mesh in report.meshes]
+    meshes = [msgspec.structs.replace(mesh, path=shown(mesh.path)) for mesh in report.meshes]
     return encode(msgspec.to_builtins(msgspec.structs.replace(report, meshes=meshes)))
 
 

@@ -10,7 +10,8 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from .check import ERROR, FAIL, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, printable, sentence
+from ..printable import shown
+from .check import ERROR, FAIL, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, sentence
 from .console import MARKS, report_console
 from .fitting import add_numbers, fitting, plain_table, roomy_table
 
@@ -36,7 +37,7 @@ def show(report: CheckReport, verbose: int = 0, stream: TextIO | None = None) ->
     for mesh in report.meshes:
         if verbose:
             for remark in mesh.warnings:
-                text = f"{printable(mesh.path)}: {remark.code}: {remark.count:,} {printable(remark.message)}"
+                text = f"{shown(mesh.path)}: {remark.code}: {remark.count:,} {shown(remark.message)}"
                 console.print(f"[yellow]warning[/yellow] {escape(text)}", soft_wrap=True)
         if (verbose or len(report.meshes) == 1) and mesh.status != ERROR:
             console.print(fitting(console, _outcomes(mesh)))
@@ -63,13 +64,13 @@ def _outcomes(mesh: CheckedMesh) -> Iterator[Table]:
     """Failing first; with little room the names stand before the sentences."""
     listed = sorted(mesh.outcomes, key=lambda outcome: _ORDER.index(outcome.status))
     wide = roomy_table("check", "scope", "status")
-    wide.add_column(printable(mesh.path), overflow="fold", min_width=_MESSAGE)
+    wide.add_column(shown(mesh.path), overflow="fold", min_width=_MESSAGE)
     narrow = plain_table("status")
-    narrow.add_column(printable(mesh.path), overflow="fold")
+    narrow.add_column(shown(mesh.path), overflow="fold")
     for outcome in listed:
-        name, scope, message = (escape(printable(text)) for text in (outcome.name, outcome.scope, outcome.message))
+        name, scope, message = (escape(shown(text)) for text in (outcome.name, outcome.scope, outcome.message))
         wide.add_row(name, scope, MARKS[outcome.status], message)
-        narrow.add_row(MARKS[outcome.status], f"{escape(printable(outcome.label))}: {message}")
+        narrow.add_row(MARKS[outcome.status], f"{escape(shown(outcome.label))}: {message}")
     yield wide
     yield narrow
 
@@ -88,5 +89,5 @@ def _meshes(report: CheckReport) -> Iterator[Table]:
                 "warnings": len(mesh.warnings),
             }
             row = ("" if mesh.status == ERROR else f"{told[name]:,}" for name in counts)
-            table.add_row(escape(printable(mesh.path)), MARKS[mesh.status], *row)
+            table.add_row(escape(shown(mesh.path)), MARKS[mesh.status], *row)
         yield table

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 
-from .check import CheckReport, printable, sentence
+from ..printable import shown
+from .check import CheckReport, sentence
 from .check_text import summary
 
 # A workflow command ends with its line; in properties the colon and the comma have a meaning too.
@@ -20,7 +21,7 @@ def write_github(report: CheckReport) -> bytes:
             properties = {"title": f"curvcli {outcome.label}"}
             if mesh.path != "-":
                 properties = {"file": os.path.normpath(mesh.path).replace(os.sep, "/"), **properties}
-            named = ",".join(f"{key}={printable(value).translate(_PROPERTY)}" for key, value in properties.items())
+            named = ",".join(f"{key}={shown(value).translate(_PROPERTY)}" for key, value in properties.items())
             lines.append(f"::error {named}::{sentence(mesh, outcome).translate(_DATA)}")
     lines.append(f"curvcli: {summary(report)}")
     return ("\n".join(lines) + "\n").encode()

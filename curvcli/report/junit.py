@@ -6,7 +6,8 @@ from io import BytesIO
 
 from junitparser import Attr, Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 
-from .check import ERROR, FAIL, NOT_APPLICABLE, CheckedMesh, CheckReport, Outcome, printable, sentence
+from ..printable import shown
+from .check import ERROR, FAIL, NOT_APPLICABLE, CheckedMesh, CheckReport, Outcome, sentence
 
 
 class Case(TestCase):
@@ -19,7 +20,7 @@ def write_junit(report: CheckReport) -> bytes:
     """JUnit XML; checks that do not apply are skipped, a mesh that cannot be read is an error."""
     document = JUnitXml("curvcli check")
     for mesh in report.meshes:
-        suite = TestSuite(printable(mesh.path))
+        suite = TestSuite(shown(mesh.path))
         suite.add_testcases([_case(mesh, outcome) for outcome in mesh.outcomes])
         document.add_testsuite(suite)
     document.update_statistics()  # type: ignore[no-untyped-call]
@@ -29,13 +30,13 @@ def write_junit(report: CheckReport) -> bytes:
 
 
 def _case(mesh: CheckedMesh, outcome: Outcome) -> Case:
-    case = Case(printable(outcome.label), f"curvcli.{outcome.kind}")
-    case.file = printable(mesh.path)
+    case = Case(shown(outcome.label), f"curvcli.{outcome.kind}")
+    case.file = shown(mesh.path)
     kinds = {FAIL: Failure, ERROR: Error, NOT_APPLICABLE: Skipped}
     if outcome.status in kinds:
-        result = kinds[outcome.status](printable(outcome.message), outcome.kind)
+        result = kinds[outcome.status](shown(outcome.message), outcome.kind)
         result.text = sentence(mesh, outcome)
         case.result = [result]
     else:
-        case.system_out = printable(outcome.message)
+        case.system_out = shown(outcome.message)
     return case

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 from ..checks.base import rules
-from .check import printable
+from ..printable import shown
 from .model import Report
 from .proof import proof
 from .words import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
@@ -102,21 +102,21 @@ def _text(text: str) -> str:
 
     What stands between backticks is code.
     """
-    parts = printable(text).split("`")
+    parts = shown(text).split("`")
     if len(parts) % 2 == 0:
         return _plain(text)
     return "".join(_code(part) if k % 2 else _plain(part) for k, part in enumerate(parts))
 
 
 def _plain(text: str) -> str:
-    escaped = re.sub(r"([\\`*_{}\[\]<>|~&$])", r"\\\1", printable(text))
+    escaped = re.sub(r"([\\`*_{}\[\]<>|~&$])", r"\\\1", shown(text))
     return re.sub(r"[@#:](?=[\w/])", r"\g<0><!-- -->", escaped)
 
 
 def _code(text: str) -> str:
     """A name as it is, whatever it holds."""
     fence = "`" * (1 + max((len(run) for run in re.findall("`+", text)), default=0))
-    inner = printable(text)
+    inner = shown(text)
     return f"{fence} {inner} {fence}" if "`" in inner or inner != inner.strip() else f"{fence}{inner}{fence}"
 
 

@@ -9,7 +9,8 @@ from typing import Any
 from urllib.parse import quote
 
 from .._version import __version__
-from .check import INPUT, CheckedMesh, CheckReport, Outcome, printable, sentence
+from ..printable import shown
+from .check import INPUT, CheckedMesh, CheckReport, Outcome, sentence
 from .model import encode
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -86,5 +87,5 @@ def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, in
         artifact = {**_location(mesh.path), "index": index}
         found["locations"] = [{"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": 1}}}]
     if outcome.kind != INPUT:
-        found["properties"] = {"scope": printable(outcome.scope)}
+        found["properties"] = {"scope": shown(outcome.scope)}
     return found

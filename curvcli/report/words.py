@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..plurals import counted
-from .check import printable
-from .model import CheckRow, Report, Topology
+from ..printable import shown
+
+if TYPE_CHECKING:
+    from .model import CheckRow, Report, Topology
 
 _RANK = {"fail": 0, "pass": 1, "not_applicable": 2}
 RESULTS = {"fail": "fails", "pass": "holds", "not_applicable": "does not apply"}
@@ -88,7 +90,7 @@ def number(value: Any, digits: int = 6) -> str:
         return "(" + ", ".join(number(part, digits) for part in value) + ")"
     if isinstance(value, int):
         return f"{value:,}"
-    return f"{value + 0.0:.{digits}g}" if isinstance(value, float) else printable(str(value))
+    return f"{value + 0.0:.{digits}g}" if isinstance(value, float) else shown(str(value))
 
 
 def shell_quoted(arguments: Iterable[str]) -> str:

@@ -52,7 +52,7 @@ def test_odd_names_are_written_and_shown_on_one_line(tmp_path: Path) -> None:
     file = os.fsdecode(os.fsencode(tmp_path) + b"/a\n\xff.csv")
     write(file)
     assert Path(file).read_bytes() == NEW
-    assert refused(file).encode().endswith(b"a\\n\\udcff.csv': exists already; --force overwrites it")
+    assert refused(file).encode().endswith(b"a\\n\\xff.csv: exists already; --force overwrites it")
 
 
 def test_two_outputs_on_one_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,8 +11,8 @@ import msgspec
 import numpy as np
 
 from ...checks.base import rules
+from ...printable import shown
 from ...report.build import model
-from ...report.check import printable
 from ...report.proof import holds, proof
 from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ..camera import frame
@@ -50,7 +50,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
     from markupsafe import Markup
 
     def finalize(value: Any) -> Any:
-        return printable(value) if isinstance(value, str) and not hasattr(value, "__html__") else value
+        return shown(value) if isinstance(value, str) and not hasattr(value, "__html__") else value
 
     templates = Environment(
         loader=PackageLoader("curvcli.output.html"),
@@ -62,8 +62,8 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
     )
     templates.filters |= {"number": number, "hex": hex_color, "exact": _exact, "coded": _coded}
     source: Callable[[str], str] = lambda name: templates.loader.get_source(templates, name)[0]  # type: ignore[union-attr]  # noqa: E731
-    shown = columns(analysis, appearance, colored)
-    display, blocks = _fitted(analysis, shown)
+    chosen = columns(analysis, appearance, colored)
+    display, blocks = _fitted(analysis, chosen)
     code = "".join(source(name) for name in ("data.js", "scene.js", "page.js"))
     scripts = [engine(), f'(async () => {{\n"use strict";\n{code}}})();\n']
     style = source("style.css")
@@ -85,13 +85,13 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         rules=rules,
         counts={name: len(rows) for name, rows in pieces.items()},
         totals=_totals(),
-        columns=shown,
-        units={column.name: column.unit for column in shown},
-        gradients={column.scale.cmap: column.scale.gradient for column in shown},
-        first=_first(shown, colored),
+        columns=chosen,
+        units={column.name: column.unit for column in chosen},
+        gradients={column.scale.cmap: column.scale.gradient for column in chosen},
+        first=_first(chosen, colored),
         display=display,
         surface=analysis.surface,
-        data=_data(analysis, appearance, display, shown, blocks.pop("meta")),
+        data=_data(analysis, appearance, display, chosen, blocks.pop("meta")),
         blocks={name: Markup(text) for name, text in blocks.items()},
         command=command,
         style=Markup(style),
@@ -140,7 +140,7 @@ def _coded(text: str) -> Any:
     """Text whose parts between backticks are code."""
     from markupsafe import Markup
 
-    parts = printable(text).split("`")
+    parts = shown(text).split("`")
     if len(parts) % 2 == 0:
         return text
     return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))
