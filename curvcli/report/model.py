@@ -157,19 +157,22 @@ def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
 
 def schema() -> bytes:
     """The JSON Schema of the report."""
-    from .quantities import public
+    from .quantities import public, unmarked
 
     found = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
     properties = found["$defs"]["Report"]["properties"]
     quantities = [quantity for quantity in public() if quantity.on == "vertex" and quantity.kind != "label"]
     properties["columns"]["properties"] = {
-        column: {"$ref": "#/$defs/ColumnStatistics", "description": f"{quantity.description} {quantity.formula}"}
+        column: {
+            "$ref": "#/$defs/ColumnStatistics",
+            "description": unmarked(f"{quantity.description} {quantity.formula}"),
+        }
         for quantity in quantities
         for column in quantity.columns
     }
     for piece in (found["$defs"]["Report"], found["$defs"]["Piece"]):
         piece["properties"]["totals"]["properties"] = {
-            quantity.total: {"description": f"Σ {quantity.name}: {quantity.description}"}
+            quantity.total: {"description": unmarked(f"Σ {quantity.name}: {quantity.description}")}
             for quantity in passes.quantities(public=False)
             if quantity.total
         }

@@ -16,7 +16,7 @@ from .advice import plain
 from .console import report_console
 from .fitting import fitting, plain_table
 
-_PLAIN = str.maketrans("", "", "*")
+_BOLD = str.maketrans("", "", "*")
 # The least width of a column of formulas.
 _FORMULA = 24
 
@@ -67,23 +67,28 @@ def find(name: str) -> Quantity:
     return known[name]
 
 
+def unmarked(text: str) -> str:
+    """The text of a declaration without the marks of Markdown that make vectors bold."""
+    return text.translate(_BOLD)
+
+
 def facts(quantity: Quantity) -> Facts:
     """The facts of a quantity."""
     needs = [need for need in passes.provider(quantity.name).needs if need not in NO_QUANTITIES]
     return {
         "name": quantity.name,
-        "symbol": quantity.symbol.translate(_PLAIN),
+        "symbol": unmarked(quantity.symbol),
         "on": quantity.on,
         "kind": quantity.kind,
         "columns": list(quantity.columns),
-        "description": quantity.description,
-        "formula": quantity.formula.translate(_PLAIN),
+        "description": unmarked(quantity.description),
+        "formula": unmarked(quantity.formula),
         "unit": quantity.unit(None),
         "length_exponent": quantity.length_exponent,
         "mean_degree": quantity.mean_degree,
         "parity": quantity.parity,
-        "boundary": quantity.boundary,
-        "preserves": quantity.preserves.translate(_PLAIN),
+        "boundary": unmarked(quantity.boundary),
+        "preserves": unmarked(quantity.preserves),
         "total": f"totals.{quantity.total}" if quantity.total else None,
         "source": quantity.source,
         "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in needs],
@@ -182,7 +187,7 @@ def page() -> str:
             ("columns" if quantity.vector else "column", columns if quantity.columns != (quantity.name,) else ""),
             ("formula", shown["formula"]),
             ("kind, unit", f"{shown['kind']}, {shown['unit']}"),
-            ("boundary", shown["boundary"]),
+            ("boundary", quantity.boundary),
             ("faces reversed", _reversed(quantity)),
             ("`--mean average`", _MEAN[quantity.mean_degree]),
             ("preserves", shown["preserves"]),
@@ -192,6 +197,6 @@ def page() -> str:
             ("needs", ", ".join(shown["needs"])),
         ]
         parts.append(f"### `{quantity.name}` {shown['symbol']}\n")
-        parts.append(f"{shown['description']}\n")
+        parts.append(f"{quantity.description}\n")
         parts.append("\n".join(f"* {label}: {value}" for label, value in rows if value) + "\n")
     return "\n".join(parts)

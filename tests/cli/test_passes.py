@@ -38,6 +38,8 @@ def test_as_data() -> None:
         assert listed[name]["length_exponent"] == quantity.length_exponent
         assert listed[name]["columns"] == list(quantity.columns)
         assert listed[name]["parity"] == quantity.parity
+        # Words for people hold no marks of Markdown.
+        assert not any("*" in text for text in listed[name].values() if isinstance(text, str)), name
     one = curvcli("passes", "K", "--json")
     wrote(one)
     assert json.loads(one.out) == listed["K"]
