@@ -74,7 +74,6 @@ def unmarked(text: str) -> str:
 
 def facts(quantity: Quantity) -> Facts:
     """The facts of a quantity."""
-    needs = [need for need in passes.provider(quantity.name).needs if need not in NO_QUANTITIES]
     return {
         "name": quantity.name,
         "symbol": unmarked(quantity.symbol),
@@ -91,9 +90,20 @@ def facts(quantity: Quantity) -> Facts:
         "preserves": unmarked(quantity.preserves),
         "total": f"totals.{quantity.total}" if quantity.total else None,
         "source": quantity.source,
-        "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in needs],
+        "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in _needs(quantity.name)],
         "preset": _preset(quantity),
     }
+
+
+def _needs(name: str) -> list[str]:
+    """What a reader can look up of what it is computed from: in place of a hidden quantity what that needs."""
+    found: list[str] = []
+    for need in passes.provider(name).needs:
+        if need == CELL_AREA or (need not in NO_QUANTITIES and passes.quantity(need).public):
+            found.append(need)
+        elif need not in NO_QUANTITIES:
+            found += _needs(need)
+    return list(dict.fromkeys(found))
 
 
 def _preset(quantity: Quantity) -> str:

@@ -40,6 +40,8 @@ def test_as_data() -> None:
         assert listed[name]["parity"] == quantity.parity
         # Words for people hold no marks of Markdown.
         assert not any("*" in text for text in listed[name].values() if isinstance(text, str)), name
+        needs = {*listed[name]["needs"]} - {"the area chosen by --area"}
+        assert needs <= PUBLIC.keys(), "what it needs can be looked up"
     one = curvcli("passes", "K", "--json")
     wrote(one)
     assert json.loads(one.out) == listed["K"]
