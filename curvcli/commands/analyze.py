@@ -10,6 +10,7 @@ import click
 
 from ..errors import CurvcliError, UsageError
 from ..exits import FAILED_CHECK, OK, exit_code, worst
+from ..loading.limits import parse_weld
 from ..memory import ran_out
 from . import options
 from .talk import internal, say
@@ -105,7 +106,7 @@ class Run:
         from ..tables import TABLES
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
-        self.weld = options.welding(weld)
+        self.weld = parse_weld(weld)
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
         self.passes, at_scale = options.chosen(passes, conventions)
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose

@@ -13,6 +13,7 @@ import click
 
 from ..errors import UsageError
 from ..exits import worst
+from ..loading.limits import parse_weld
 from ..plurals import counted
 from . import options
 from .talk import say
@@ -152,7 +153,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
     return Settings(
         passes=tuple(names),
         save=save,
-        weld=options.welding(weld),
+        weld=parse_weld(weld),
         appearance=appearance,
         command=shell_quoted(["curvcli", *sys.argv[1:]]),
         **conventions,

@@ -11,6 +11,7 @@ import click
 
 from ..errors import CurvcliError, UsageError
 from ..exits import exit_code, worst
+from ..loading.limits import parse_weld
 from ..memory import ran_out
 from ..plurals import counted
 from . import options
@@ -112,7 +113,7 @@ class Run:
 
         self.meshes, self.conventions = meshes, conventions
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
-        self.weld = options.welding(weld)
+        self.weld = parse_weld(weld)
         self.output, self.force, self.quiet, self.verbose = output, force, quiet, verbose
         self.format = report_format or _SUFFIXES.get(os.path.splitext(output)[1].lower(), "text")
         scales = parse_scales(conventions["rings"], conventions["radius"])

@@ -9,6 +9,7 @@ import click
 from click.core import ParameterSource
 
 from ..exits import FAILED_CHECK, OK
+from ..loading.limits import parse_weld
 from . import options
 from .wanted import one_stdout, tables_and_reports
 
@@ -146,7 +147,7 @@ def compare_map(
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
     parse_precision(precision)
-    welding = options.welding(weld)
+    welding = parse_weld(weld)
 
     # Outputs are checked before the first surface is read.
     with Outputs([one.path for one in wanted], force) as files:

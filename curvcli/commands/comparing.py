@@ -10,7 +10,7 @@ import click
 from ..differences import Difference, Tolerance, compare_reports, selector
 from ..errors import UsageError
 from ..exits import FAILED_CHECK, OK
-from . import options
+from ..loading.limits import parse_weld
 from .against_exact import accuracy, is_exact
 from .sides import Read, both_sides, kind_of, stored_side
 from .wanted import one_stdout
@@ -58,7 +58,7 @@ def compare(
     formats = [format_of(p, name=stream_format if p == "-" else None, kinds=("table", "report")) for p in outputs]
     to_stdout = one_stdout(outputs, as_json, get, stream_format)
     parse_precision(precision)
-    conventions["weld"] = options.welding(conventions["weld"])
+    conventions["weld"] = parse_weld(conventions["weld"])
     limits = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
     with Outputs(list(outputs), force) as files:
         found: Comparison | Accuracy

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..exits import FAILED_CHECK, OK
+from ..loading.limits import parse_weld
 from . import options
 from .wanted import one_stdout, tables_and_reports
 
@@ -95,7 +96,7 @@ def measure(
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
     parse_precision(precision)
-    welding = options.welding(weld)
+    welding = parse_weld(weld)
 
     # Outputs are checked before the file is read.
     with Outputs([one.path for one in wanted], force) as files:

@@ -222,19 +222,3 @@ def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str]
     scales = parse_scales(settings["rings"], settings["radius"])
     names = resolve(passes or defaults(bool(scales), settings.get("noise") is not None))
     return names, at_scales(names, Settings(scales or DEFAULTS.scales))
-
-
-def welding(text: str) -> str | float:
-    """The value of --weld.
-
-    Errors: click.BadParameter for what is neither a word it knows nor a positive number.
-    """
-    if text in ("auto", "none", "exact"):
-        return text
-    try:
-        tolerance = float(text)
-    except ValueError:
-        tolerance = -1.0
-    if not 0 < tolerance < 1:
-        raise click.BadParameter(f"{text!r} is not auto, none, exact or a number between 0 and 1", param_hint="--weld")
-    return tolerance

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..errors import UsageError
-from . import options
+from ..loading.limits import parse_weld
 from .progress import phase
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def _made_with(side: Read) -> dict[str, Any]:
     if found.get("noise") is not None:
         made["noise"] = float(found["noise"])
     if found.get("weld") not in (None, "none"):
-        made["weld"] = options.welding(found["weld"])
+        made["weld"] = parse_weld(found["weld"])
     if found.get("regions") not in (None, "array"):
         made["regions"] = found["regions"]
     return made

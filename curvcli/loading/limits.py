@@ -1,8 +1,10 @@
-"""Limits that are checked before anything large is allocated."""
+"""Limits and options that are checked before anything is read or allocated."""
 
 from __future__ import annotations
 
-from ..errors import InputError
+import math
+
+from ..errors import InputError, UsageError
 from ..plurals import number_of
 
 
@@ -12,3 +14,19 @@ def check_faces(found: int, allowed: int | None) -> None:
         raise InputError(
             f"{number_of(found, 'face')} found, at most {allowed} allowed", hint="--max-faces sets the limit"
         )
+
+
+def parse_weld(weld: str | float) -> str | float:
+    """A way of welding: `auto`, `none`, `exact`, or a tolerance relative to the diagonal of the bounding box.
+
+    Errors: UsageError for what is none of these.
+    """
+    if isinstance(weld, str) and weld in ("auto", "none", "exact"):
+        return weld
+    try:
+        tolerance = float(weld)
+    except ValueError:
+        tolerance = math.nan
+    if not 0 < tolerance < 1:
+        raise UsageError(f"--weld {weld}: expected auto, none, exact or a tolerance between 0 and 1")
+    return tolerance

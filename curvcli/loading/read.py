@@ -16,7 +16,7 @@ from ..errors import InputError, UsageError
 from ..memory import require_polars
 from ..printable import shown
 from .content import inflate, open_regular, read_limited
-from .limits import check_faces
+from .limits import check_faces, parse_weld
 from .model import MeshFile
 from .pieces import Pieces
 from .recognise import FORMATS, format_of_name, recognise
@@ -57,7 +57,7 @@ def read_and_make(
     normals: str = "mesh",
 ) -> Made:
     """What `make` makes of the content of a mesh file, read, and refused, as `read_mesh_file` does it."""
-    _check_weld(weld)
+    weld = parse_weld(weld)
     if input_format is not None and input_format.lower() not in FORMATS:
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(FORMATS)} are")
     path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
@@ -66,15 +66,6 @@ def read_and_make(
     except InputError as error:
         place, hint = error.place and shown(error.place), error.hint and shown(error.hint)
         raise InputError(shown(error.problem), path=shown(path), place=place, hint=hint) from None
-
-
-def _check_weld(weld: str | float) -> None:
-    try:
-        known = weld in ("auto", "none", "exact") or 0 <= float(weld) < 1
-    except ValueError:
-        known = False
-    if not known:
-        raise UsageError(f"weld `{weld}` is not known; auto, none, exact and a tolerance from 0 to 1 are")
 
 
 def _read(

@@ -46,8 +46,8 @@ def test_welding(tmp_path: Path) -> None:
         mesh = read_mesh_file(io.BytesIO(seam), input_format="obj", weld=weld)
         assert mesh.corners[6] == expected
         assert mesh.xyz.shape == (3, 5)
-    for weld in ("some", -1.0, float("nan"), 2.0):
-        with pytest.raises(UsageError, match="is not known"):
+    for weld in ("some", "", 0, "0", -1.0, float("nan"), 1, 2.0):
+        with pytest.raises(UsageError, match=r"^--weld .*: expected auto, none, exact or a tolerance"):
             read_mesh_file(io.BytesIO(seam), weld=weld)
 
 
