@@ -26,16 +26,16 @@ class ErrorNorms:
     relative_l2: ‖x − exact‖ / ‖exact‖, weighted by the areas of the vertices; None where the exact values are all 0.
     linf: the largest error, at which vertex. rms: √(Σ A (x − exact)² / Σ A). bias: Σ A (x − exact) / Σ A, and
     relative_bias over Σ A |exact| instead. nulls: vertices that have an exact value but no computed one. compared:
-    those that have both.
+    those that have both; where there is none, all but the counts is None.
     """
 
     column: str
     exact: str
     relative_l2: float | None
-    linf: float
-    vertex: int
-    rms: float
-    bias: float
+    linf: float | None
+    vertex: int | None
+    rms: float | None
+    bias: float | None
     relative_bias: float | None
     nulls: int
     compared: int
@@ -81,19 +81,24 @@ def error_norms(column: str, exact: str, found: Floats, wanted: Floats, area: Fl
     gap = found[both] - reference
     total = float(weight.sum())
     if not total:
-        return ErrorNorms(column, exact, None, math.nan, -1, math.nan, math.nan, None, int((known & ~both).sum()), 0)
+        return ErrorNorms(column, exact, None, None, None, None, None, None, int((known & ~both).sum()), 0)
     square, size = float(weight @ gap**2), float(weight @ reference**2)
     worst = int(np.argmax(np.abs(gap)))
     bias, absolute = float(weight @ gap), float(weight @ np.abs(reference))
     return ErrorNorms(
         column,
         exact,
-        math.sqrt(square / size) if size else None,
+        _known(math.sqrt(square / size)) if size else None,
         float(abs(gap[worst])),
         int(np.flatnonzero(both)[worst]),
-        math.sqrt(square / total),
-        bias / total,
-        bias / absolute if absolute else None,
+        _known(math.sqrt(square / total)),
+        _known(bias / total),
+        _known(bias / absolute) if absolute else None,
         int(np.count_nonzero(known & ~both)),
         int(np.count_nonzero(both)),
     )
+
+
+def _known(value: float) -> float | None:
+    """None for what overflow has made of sums beyond doubles."""
+    return None if math.isnan(value) else value

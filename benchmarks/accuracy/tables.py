@@ -54,8 +54,9 @@ def _is_of(name: str, key: str) -> bool:
 
 
 def size_of(found: ErrorNorms) -> float:
-    """The relative L² error; where the exact values are zero, the root of the mean square."""
-    return found.rms if found.relative_l2 is None else found.relative_l2
+    """The relative L² error; where the exact values are zero, the root of the mean square; NaN without any value."""
+    known = (found.relative_l2, found.rms, math.nan)
+    return next(value for value in known if value is not None)
 
 
 def _order(values: Sequence[float], heads: Sequence[tuple[str, float]]) -> str:

@@ -62,24 +62,8 @@ def model(
     notes: list[str],
 ) -> Accuracy:
     """The report; rtol: what relative L2 errors may be, None for whatever they are."""
-
-    def known(value: float | None) -> float | None:
-        return None if value is None or math.isnan(value) else value
-
-    found = {
-        one.column: ColumnErrors(
-            one.exact,
-            known(one.relative_l2),
-            known(one.linf),
-            one.vertex if one.vertex >= 0 else None,
-            known(one.rms),
-            known(one.bias),
-            known(one.relative_bias),
-            one.nulls,
-            one.compared,
-        )
-        for one in errors
-    }
+    names = ColumnErrors.__struct_fields__
+    found = {one.column: ColumnErrors(*(getattr(one, name) for name in names)) for one in errors}
     equal = rtol is None or all(one.relative_l2 is None or one.relative_l2 <= rtol for one in found.values())
     return Accuracy(1, __version__, mesh, exact, scale, rtol, equal, found, unmatched, notes)
 
