@@ -8,8 +8,9 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from ..slices import slices
 from .parts import Parts
-from .text import blocks, lines, numbers, without, write_lines
+from .text import ROWS_AT_A_TIME, lines, numbers, without, write_lines
 
 # k / 255 at four digits: enough to read back as the same byte.
 _SHARES = np.round(np.arange(256) / 255, 4)
@@ -25,13 +26,13 @@ def write_obj(
     colors, polygons = parts.get("vertex_colors"), parts.get("polygons")
     for comment in parts.get("comments", ()):
         stream.write(f"# {' '.join(comment.split())}\n".encode())
-    for rows in blocks(len(points)):
+    for rows in slices(len(points), ROWS_AT_A_TIME):
         columns: dict[str, pl.Series | pl.Expr] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}
         if colors is not None:
             columns |= {name: numbers(_SHARES[colors[rows, k]]) for k, name in enumerate("rgb")}
         write_lines(stream, {"v": pl.lit("v"), **columns})
     if polygons is None:
-        for rows in blocks(len(faces)):
+        for rows in slices(len(faces), ROWS_AT_A_TIME):
             part = faces[rows].astype(np.int64) + 1
             write_lines(stream, {"f": pl.lit("f"), **{name: numbers(part[:, k]) for k, name in enumerate("abc")}})
     else:
@@ -42,7 +43,7 @@ def _write_polygons(stream: BinaryIO, corners: NDArray[np.integer[Any]], sizes: 
     """One line per corner, `f` before the first of each polygon; then a line end before a blank is taken out."""
     starts = np.zeros(len(corners), np.bool_)
     starts[(np.cumsum(sizes) - sizes)[sizes > 0]] = True
-    for rows in blocks(len(corners)):
+    for rows in slices(len(corners), ROWS_AT_A_TIME):
         letter = numbers(starts[rows]).replace_strict([True, False], ["f", None], return_dtype=pl.String)
         text = lines({"f": letter, "corner": numbers(corners[rows].astype(np.int64) + 1)})
         # The line end of a block's last corner may go as well: it is written before the next block instead.

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from ..errors import Notice, OutputError
 from ..plurals import agree
-from .text import blocks, lines, numbers, without
+from ..slices import slices
+from .text import ROWS_AT_A_TIME, lines, numbers, without
 
 _HEADER = b"binary STL written by curvcli".ljust(80, b" ")
 _RECORD = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -33,7 +34,7 @@ def write_stl(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.i
     if large.any():
         raise OutputError(f"STL keeps float32, which cannot hold the coordinate {used[large][0]:g}; .ply can")
     stream.write(_HEADER + np.uint32(len(faces)).astype("<u4").tobytes())
-    for rows in blocks(len(faces)):
+    for rows in slices(len(faces), ROWS_AT_A_TIME):
         corners = points[faces[rows]]
         records = np.zeros(len(corners), _RECORD)
         records["normal"] = _normals(corners)
@@ -50,7 +51,7 @@ def write_stl(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.i
 def write_stl_text(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]]) -> None:
     """Write triangles as ASCII STL with the shortest text of each double; points (V, 3), faces (F, 3)."""
     stream.write(b"solid curvcli\n")
-    for rows in blocks(len(faces)):
+    for rows in slices(len(faces), ROWS_AT_A_TIME):
         corners = points[faces[rows]]
         columns: dict[str, pl.Series | pl.Expr] = {"facet": pl.lit("facet normal")}
         columns |= {f"n{k}": numbers(column) for k, column in enumerate(_normals(corners).T)}

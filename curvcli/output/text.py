@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -35,11 +35,6 @@ def without(text: bytes, first: bytes, second: bytes) -> NDArray[np.uint8]:
     keep = np.ones(len(data), np.bool_)
     keep[:-1] = (data[:-1] != first[0]) | (data[1:] != second[0])
     return data[keep]
-
-
-def blocks(length: int, step: int = ROWS_AT_A_TIME) -> Iterator[slice]:
-    """Consecutive slices that cover so many rows."""
-    return (slice(start, min(start + step, length)) for start in range(0, length, step))
 
 
 def numbers(values: NDArray[Any]) -> pl.Series:
