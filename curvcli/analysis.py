@@ -18,6 +18,7 @@ from .columns import Columns
 from .conventions import Conventions
 from .declare import AT_SCALE, CELL_AREAS, passes
 from .errors import Notice, UsageError
+from .finite import or_none
 from .groups import Groups
 from .loading.surfaces import Orient, as_surface
 from .pipeline import at_scales, defaults, evaluate, prepare, presented, resolve, schedule
@@ -199,7 +200,7 @@ def plain(value: Any) -> Any:
     """A number or a vector for JSON, None where undefined."""
     if np.ndim(value):
         return [plain(x) for x in value] if np.isfinite(value).any() else None
-    return float(value) if np.isfinite(value) else None
+    return or_none(float(value))
 
 
 def analyze(

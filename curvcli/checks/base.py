@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import EPSILON, NO_AREA
+from ..finite import or_none
 from ..groups import Groups
 
 if TYPE_CHECKING:
@@ -172,4 +173,4 @@ def _plain(value: Any) -> Any:
     """A number or a list of numbers; null where no double holds it."""
     if isinstance(value, list):
         return [_plain(x) for x in value]
-    return value if math.isfinite(value) else None
+    return or_none(value)

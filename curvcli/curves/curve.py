@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import UsageError
+from ..finite import or_none
 from .frames import Bishop, Frenet
 from .holonomy import normal_holonomy
 from .plane import PlaneCurves, plane_curves
@@ -122,12 +123,12 @@ class Curve:
     @property
     def signed_total(self) -> float | None:
         """Σ ±ψ of a plane closed curve, an integer times 2π; None for others."""
-        return _number(self._plane.signed_total[0])
+        return or_none(float(self._plane.signed_total[0]))
 
     @property
     def turning_number(self) -> int | None:
         """How often a plane closed curve turns round; None for others."""
-        found = _number(self._plane.turning_number[0])
+        found = or_none(float(self._plane.turning_number[0]))
         return None if found is None else int(found)
 
     @cached_property
@@ -157,7 +158,7 @@ class Curve:
     @property
     def holonomy(self) -> float | None:
         """Angle of the normal holonomy in (−π, π], right-handed about T; None where undefined."""
-        return _number(self._bishop.holonomy[0])
+        return or_none(float(self._bishop.holonomy[0]))
 
     def normal_holonomy(self) -> Floats:
         """(d − 1, d − 1) the normal holonomy of a closed curve, an element of SO(d − 1).
@@ -178,7 +179,3 @@ class Curve:
         if max_edges is not None and edges > max_edges:
             raise UsageError(f"{edges} edges, at most {max_edges} are summed in pairs; max_edges sets the limit")
         return float(writhe(self._distinct, None)[0][0])
-
-
-def _number(value: float) -> float | None:
-    return None if np.isnan(value) else float(value)

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from .._version import __version__
 from ..census import census, classify, duplicate_faces, duplicate_vertices
 from ..declare import passes
+from ..finite import or_none
 from ..groups import Groups
 from ..once import once
 from ..surface import Surface
@@ -185,13 +186,9 @@ def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
 
 def _plain(values: Any) -> list[Any]:
     """Lists for JSON, with None for what is undefined: a number that is none, a vector without a component."""
-    return [_vector(row) if isinstance(row, list) else _number(row) for row in values.tolist()]
+    return [_vector(row) if isinstance(row, list) else or_none(row) for row in values.tolist()]
 
 
 def _vector(row: list[float]) -> list[float | None] | None:
-    shown = [_number(x) for x in row]
+    shown = [or_none(x) for x in row]
     return None if all(x is None for x in shown) else shown
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None

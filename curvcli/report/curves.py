@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import msgspec
@@ -11,6 +10,7 @@ import numpy as np
 from .._version import __version__
 from ..curves.identities import Identity
 from ..curves.measure import CurveMeasures
+from ..finite import or_none
 from ..loading.model import Labels
 from .model import CheckRow, Input, Remark, input_of, remarks
 
@@ -99,7 +99,7 @@ def _values(column: Any) -> list[Any]:
     if column.dtype.kind != "f":
         listed: list[Any] = column.tolist()
         return listed
-    return [_plain(value) for value in column.tolist()]
+    return [or_none(value) for value in column.tolist()]
 
 
 def _checks(identity: Identity) -> list[CheckRow]:
@@ -122,7 +122,7 @@ def _check(identity: Identity, curve: int, passed: bool, reason: int) -> CheckRo
     if reason >= 0:
         return CheckRow(identity.name, scope, "not_applicable", None, None, None, None, identity.excluded[reason][1])
     value, expected, residual, tolerance = (
-        _plain(float(side[curve]))
+        or_none(float(side[curve]))
         for side in (identity.value, identity.expected, identity.residual, identity.tolerance)
     )
     status = "pass" if passed else "fail"
@@ -141,7 +141,3 @@ def _summary(identity: Identity, reason: np.ndarray[Any, Any]) -> CheckRow:
     )
     row.scope = "curves"
     return row
-
-
-def _plain(value: float) -> float | None:
-    return value if math.isfinite(value) else None

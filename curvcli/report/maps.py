@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
+from ..finite import or_none
 from .console import MARKS, report_console
 from .fitting import fitting, with_sentences
 from .model import CheckRow, Input, Remark, input_of, remarks
@@ -61,11 +61,11 @@ def model(f: SurfaceMap) -> MapReport:
         curvcli=__version__,
         source=input_of(f.source.file, f.source.n_vertices, f.source.n_faces),
         image=input_of(f.image.file, f.image.n_vertices, f.image.n_faces),
-        totals={name: _plain(value) for name, value in f.totals.items()},
+        totals={name: or_none(value) for name, value in f.totals.items()},
         sigma_1=_range(f.sigma_1),
         sigma_2=_range(f.sigma_2),
         nonconformality=_range(f.nonconformality),
-        harmonic=Harmonic(_plain(residual), vertex, _plain(rounding)),
+        harmonic=Harmonic(or_none(residual), vertex, or_none(rounding)),
         checks=[CheckRow(**vars(check)) for check in f.checks],
         warnings=remarks(notices),
     )
@@ -127,10 +127,6 @@ def _range(values: np.typing.NDArray[np.float64]) -> Range:
 
 def _between(values: Range) -> str:
     return f"{_text(values.min)} … {_text(values.max)}" + (f", {values.nulls:,} undefined" if values.nulls else "")
-
-
-def _plain(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _text(value: float | None, digits: int = 12) -> str:
