@@ -26,7 +26,7 @@ from .report.check import (
     Outcome,
     Rule,
 )
-from .report.model import CONVENTIONS, Remark, Value
+from .report.model import CONVENTIONS, Value, remarks
 from .requirements import Requirement
 from .settings import Scale
 
@@ -100,7 +100,7 @@ def judge(analysis: Analysis, chosen: Plan, path: str) -> CheckedMesh:
         FAILED_CHECK if failed else OK,
         {key: getattr(conventions, key) for key in CONVENTIONS},
         outcomes,
-        [Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in analysis.notices],
+        remarks(analysis.notices),
     )
 
 

@@ -14,12 +14,11 @@ from .console import MARKS, report_console
 from .fitting import add_numbers, fitting, plain_table
 from .model import CheckRow, Report
 from .proof import holds, proof
-from .words import shape
+from .words import failing_first, shape
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
 
-_ORDER = {"fail": 0, "pass": 1, "not_applicable": 2}
 # Least widths of a column of sentences, and of one of names that are folded.
 _DETAIL, _NAME = 20, 14
 # Whole numbers below are written out.
@@ -60,8 +59,7 @@ def _shape(report: Report) -> str:
 
 def _checks(rows: list[CheckRow], verbose: int) -> Iterator[Table]:
     """What fails first, with the detail beside the numbers, or below the name where the terminal is narrow."""
-    listed = [row for row in rows if row.scope == "whole" or row.status == "fail" or verbose]
-    listed.sort(key=lambda row: _ORDER[row.status])
+    listed = failing_first(row for row in rows if row.scope == "whole" or row.status == "fail" or verbose)
     hidden = len(rows) - len(listed)
     scoped = any(row.scope != "whole" for row in listed)
     pieces = "regions" if any(row.scope.startswith("region") for row in rows) else "components"
