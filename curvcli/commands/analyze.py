@@ -47,14 +47,14 @@ if TYPE_CHECKING:
 @options.estimating
 @options.as_json
 @click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")
-@click.option("--schema", is_flag=True, help="Print the JSON Schema of the report and stop.")
+@options.schema
 @options.stream_format
 @options.drawing
 @options.precision
 @options.force
 @options.strict
 @options.talking
-def command(meshes: tuple[str, ...], as_json: bool, get: str | None, schema: bool, **settings: Any) -> int:
+def command(meshes: tuple[str, ...], as_json: bool, get: str | None, **settings: Any) -> int:
     """Compute the curvatures of each MESH, check the identities they keep, and say so.
 
     Without -o, --json or --get, a summary goes to stdout. Outputs appear whole or not at all.
@@ -66,11 +66,6 @@ def command(meshes: tuple[str, ...], as_json: bool, get: str | None, schema: boo
       curvcli analyze scans/*.ply -o 'out/{stem}.csv'
       curvcli analyze - --input-format ply -o - --format csv < bunny.ply
     """
-    if schema:
-        from ..report.model import schema as json_schema
-
-        sys.stdout.buffer.write(json_schema())
-        return 0
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
     stdin_once(meshes)

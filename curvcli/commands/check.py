@@ -61,10 +61,10 @@ _TOLD = 20
     help="Format of the report; by default that of -o's suffix (.json, .xml: junit, .sarif), else text.",
 )
 @click.option("-o", "--output", metavar="FILE", default="-", help="Write the report there instead of to stdout.")
-@click.option("--schema", is_flag=True, help="Print the JSON Schema of the json format and stop.")
+@options.schema
 @options.force
 @options.talking
-def command(meshes: tuple[str, ...], schema: bool, **settings: Any) -> int:
+def command(meshes: tuple[str, ...], **settings: Any) -> int:
     """Check each MESH; exit with 0 if everything holds and 1 if something fails.
 
     Checked are the identities that curvatures keep, on the whole and on every component, and what is
@@ -76,11 +76,6 @@ def command(meshes: tuple[str, ...], schema: bool, **settings: Any) -> int:
       curvcli check torus.obj --require genus=1 --assert 'absmax(h_signed) <= 50'
       curvcli check scan.ply --allow manifold,no-degenerate
     """
-    if schema:
-        from ..report.check import schema as json_schema
-
-        sys.stdout.buffer.write(json_schema())
-        return 0
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
     stdin_once(meshes)

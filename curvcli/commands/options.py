@@ -53,7 +53,7 @@ schema = click.option(
     is_eager=True,
     expose_value=False,
     callback=_schema,
-    help="Print the JSON Schema of --json and stop.",
+    help="Print the JSON Schema of the JSON output and stop.",
 )
 quiet = click.option("-q", "--quiet", is_flag=True, help="Say nothing but errors.")
 verbose = click.option(

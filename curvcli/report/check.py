@@ -113,8 +113,3 @@ def write_json(report: CheckReport) -> bytes:
     """The report as JSON; bytes of a path that are no text are escaped."""
     meshes = [msgspec.structs.replace(mesh, path=shown(mesh.path)) for mesh in report.meshes]
     return encode(msgspec.to_builtins(msgspec.structs.replace(report, meshes=meshes)))
-
-
-def schema() -> bytes:
-    """The JSON Schema of the report."""
-    return encode({"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(CheckReport)})

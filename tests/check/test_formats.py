@@ -19,9 +19,10 @@ import pytest
 from curvcli.analysis import Analysis
 from curvcli.checks import Check
 from curvcli.checks.base import rules
+from curvcli.commands.schemas import SCHEMAS
 from curvcli.conventions import Conventions
 from curvcli.gate import gap, judge, plan
-from curvcli.report.check import CheckReport, failed_input, schema, sentence, write_json
+from curvcli.report.check import CheckReport, failed_input, sentence, write_json
 from curvcli.report.check_text import write_text
 from curvcli.report.github import write_github
 from curvcli.report.junit import write_junit
@@ -57,7 +58,7 @@ def test_sentences(found: CheckReport) -> None:
 
 def test_json(found: CheckReport) -> None:
     read = json.loads(write_json(found))
-    jsonschema.Draft202012Validator(json.loads(schema())).validate(read)
+    jsonschema.Draft202012Validator(json.loads(SCHEMAS["check"].printed())).validate(read)
     assert [mesh["status"] for mesh in read["meshes"]] == ["pass", "fail", "fail", "error"]
     assert [mesh["exit_code"] for mesh in read["meshes"]] == [0, 1, 1, 3]
     names = {outcome["name"] for mesh in read["meshes"] for outcome in mesh["outcomes"]}
