@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,7 +12,7 @@ from click.core import ParameterSource
 from ..exits import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
-from .wanted import one_stdout, tables_and_reports
+from .wanted import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
     from ..maps import SurfaceMap
@@ -143,6 +144,7 @@ def compare_map(
     """A → B as a map: options are checked, both surfaces read, the map measured and told; the exit code."""
     from ..output.atomic import Outputs
     from ..output.tables import parse_precision
+    from ..report.maps import build, show
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
@@ -155,22 +157,8 @@ def compare_map(
         for one in wanted:
             with files.open(one.path) as stream:
                 _write(stream, found, one.kind, one.suffix, precision)
-        _tell(found, as_json, get, quiet or to_stdout)
+        tell(partial(build, found), partial(show, found), as_json, get, quiet or to_stdout)
     return FAILED_CHECK if any(check.status == "fail" for check in found.checks) else OK
-
-
-def _tell(found: SurfaceMap, as_json: bool, get: str | None, quiet: bool) -> None:
-    """What goes to stdout: the report, one value of it, or the summary."""
-    from ..report.lookup import look_up
-    from ..report.maps import build, show
-    from ..report.model import encode
-
-    if as_json:
-        sys.stdout.buffer.write(encode(build(found)))
-    elif get is not None:
-        click.echo(look_up(build(found), get))
-    elif not quiet:
-        show(found)
 
 
 def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]) -> SurfaceMap:

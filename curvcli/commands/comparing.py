@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import sys
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
-
-import click
 
 from ..differences import Difference, Tolerance, compare_reports, selector
 from ..errors import UsageError
@@ -13,7 +12,7 @@ from ..exits import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from .against_exact import accuracy, is_exact
 from .sides import Read, both_sides, kind_of, stored_side
-from .wanted import one_stdout
+from .wanted import one_stdout, tell
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
@@ -52,7 +51,6 @@ def compare(
     from ..output.tables import parse_precision, write_table
     from ..report import accuracy as errors
     from ..report import differences
-    from ..report.lookup import look_up
     from ..report.model import encode
 
     formats = [format_of(p, name=stream_format if p == "-" else None, kinds=("table", "report")) for p in outputs]
@@ -62,26 +60,24 @@ def compare(
     limits = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
     with Outputs(list(outputs), force) as files:
         found: Comparison | Accuracy
-        report: Any = errors
+        table: Callable[[], dict[str, Any]]
+        summary: Callable[[], None]
         mesh, known = _exact(a, b, limits, exact)
         if known is not None:
             limit = rtol if "rtol" in given else None
             found = accuracy(mesh, known, conventions, limits, selector(only, ignore), limit, quiet)
+            table, summary = partial(errors.table, found), partial(errors.show, found)
         else:
             sides = both_sides(a, b, given, conventions, limits, quiet)
-            found, report = _compare(sides, Tolerance(rtol, atol), only, ignore, common), differences
+            found = _compare(sides, Tolerance(rtol, atol), only, ignore, common)
+            table, summary = partial(differences.table, found), partial(differences.show, found, verbose)
         for path, one in zip(outputs, formats, strict=True):
             with files.open(path) as stream:
                 if one.kind == "report":
                     stream.write(encode(msgspec.to_builtins(found)))
                 else:
-                    write_table(stream, report.table(found), one.suffix, precision=precision)
-        if as_json:
-            sys.stdout.buffer.write(encode(msgspec.to_builtins(found)))
-        elif get is not None:
-            click.echo(look_up(msgspec.to_builtins(found), get))
-        elif not quiet and not to_stdout:
-            report.show(found, verbose)
+                    write_table(stream, table(), one.suffix, precision=precision)
+        tell(partial(msgspec.to_builtins, found), summary, as_json, get, quiet or to_stdout)
     return OK if found.equal else FAILED_CHECK
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -10,7 +11,7 @@ import click
 from ..exits import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
-from .wanted import one_stdout, tables_and_reports
+from .wanted import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
     from ..curves.measure import CurveMeasures
@@ -90,6 +91,8 @@ def measure(
     **limits: Any,
 ) -> int:
     """Check the options, read the file, measure its curves, write and tell; the exit code."""
+    import msgspec
+
     from ..output.atomic import Outputs
     from ..output.tables import parse_precision
 
@@ -105,7 +108,8 @@ def measure(
         for one in wanted:
             with files.open(one.path) as stream:
                 _write(stream, measures, report, one.kind, one.suffix, precision)
-        _tell(report, as_json, get, quiet or to_stdout, verbose)
+        summary = partial(_show, report, verbose)
+        tell(partial(msgspec.to_builtins, report), summary, as_json, get, quiet or to_stdout)
     return FAILED_CHECK if strict and any(check.status == "fail" for check in report.checks) else OK
 
 
@@ -131,22 +135,10 @@ def _report(measures: CurveMeasures, weld: str | float, unit: str | None) -> Cur
     return model(measures, weld="exact" if exact else "none" if weld == "auto" else str(weld), unit=unit)
 
 
-def _tell(report: CurveReport, as_json: bool, get: str | None, quiet: bool, verbose: int) -> None:
-    """What goes to stdout: the report, one value of it, or the summary."""
-    import msgspec
+def _show(report: CurveReport, verbose: int) -> None:
+    from ..report.curves_text import show
 
-    if as_json:
-        from ..report.model import encode
-
-        sys.stdout.buffer.write(encode(msgspec.to_builtins(report)))
-    elif get is not None:
-        from ..report.lookup import look_up
-
-        click.echo(look_up(msgspec.to_builtins(report), get))
-    elif not quiet:
-        from ..report.curves_text import show
-
-        show(report, verbose)
+    show(report, verbose)
 
 
 def _write(stream: Any, measures: CurveMeasures, report: CurveReport, kind: str, suffix: str, precision: str) -> None:

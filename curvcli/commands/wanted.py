@@ -1,10 +1,11 @@
-"""Which streams and outputs a command is to read and to write, from its meshes, -o, --table, --format and --json."""
+"""Which streams and outputs a command reads and writes, from its meshes, -o, --table, --format, --json and --get."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+import sys
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
@@ -77,3 +78,17 @@ def stdin_once(meshes: Sequence[str]) -> None:
     """Errors: click.UsageError where `-` stands for several meshes: what has been read is gone."""
     if meshes.count("-") > 1:
         raise click.UsageError("`-` is given twice, but stdin can be read once only", click.get_current_context())
+
+
+def tell(report: Callable[[], Any], summary: Callable[[], None], as_json: bool, get: str | None, quiet: bool) -> None:
+    """What goes to stdout: the report as plain values, one value of it, or else the summary, which prints itself."""
+    if as_json:
+        from ..report.model import encode
+
+        sys.stdout.buffer.write(encode(report()))
+    elif get is not None:
+        from ..report.lookup import look_up
+
+        click.echo(look_up(report(), get))
+    elif not quiet:
+        summary()

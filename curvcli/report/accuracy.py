@@ -85,7 +85,7 @@ def table(found: Accuracy) -> dict[str, Any]:
     return columns
 
 
-def show(found: Accuracy, verbose: int = 0) -> None:
+def show(found: Accuracy) -> None:
     """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
     console = report_console(120)
     console.print(f"mesh [bold]{escape(found.mesh.path)}[/bold], exact values [bold]{escape(found.exact.path)}[/bold]")
