@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from ..errors import NoMatchError, UsageError
 from ..output.formats import FORMATS, format_of
+from ..output.places import folded
 from ..printable import shown
 from ..tables import TABLES
 from .model import Item
@@ -96,12 +96,8 @@ def _place(name: str) -> str:
 def _free(stem: str, save: Sequence[str], taken: set[str]) -> str:
     """The stem, numbered when one of its outputs would be another mesh's, be it only on a disk that ignores case."""
     number, tried = 1, stem
-    while taken & (wanted := {_folded(path) for _, path in outputs(tried, save)}):
+    while taken & (wanted := {folded(path) for _, path in outputs(tried, save)}):
         number += 1
         tried = f"{stem}~{number}"
     taken |= wanted
     return tried
-
-
-def _folded(path: str) -> str:
-    return unicodedata.normalize("NFC", path).casefold()

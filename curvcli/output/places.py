@@ -90,8 +90,9 @@ def same_file(one: Place, two: Place) -> bool:
             return True
     if one.direct or two.direct:
         return False
-    return _folded(one.final) == _folded(two.final) and probe(os.path.dirname(one.final))
+    return folded(one.final) == folded(two.final) and probe(os.path.dirname(one.final))
 
 
-def _folded(path: str) -> str:
+def folded(path: str) -> str:
+    """The path as a file system compares it that ignores case."""
     return unicodedata.normalize("NFC", path).casefold()
