@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from dataclasses import dataclass
+from shlex import quote
 
 from ..errors import OutputError, UsageError
+from ..output.atomic import Outputs
 
 SHELLS = ("bash", "zsh", "fish")
 
@@ -46,16 +47,12 @@ def shell(name: str | None) -> Shell:
         config = os.environ.get("XDG_CONFIG_HOME") or os.path.join(home, ".config")
         return Shell(found, os.path.join(config, "fish", "completions", "curvcli.fish"))
     script = os.path.join(data, "curvcli", f"completion.{found}")
-    load = f"if [ -r {_quoted(script)} ]; then . {_quoted(script)}; fi"
+    load = f"if [ -r {quote(script)} ]; then . {quote(script)}; fi"
     if found == "bash":
         return Shell(found, script, os.path.join(home, ".bashrc"), (load,))
     folder = os.environ.get("ZDOTDIR") or home
     ready = "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit; }"
     return Shell(found, script, os.path.join(folder, ".zshrc"), (ready, load))
-
-
-def _quoted(path: str) -> str:
-    return "'" + path.replace("'", "'\\''") + "'"
 
 
 def source(name: str) -> str:
@@ -123,22 +120,12 @@ def _write(path: str, content: bytes) -> bool:
     """Replace a file in one step, following links and keeping its mode; whether it had to change."""
     if _read(path) == content:
         return False
-    place = os.path.realpath(path)
-    temporary = None
     try:
-        os.makedirs(os.path.dirname(place), exist_ok=True)
-        mode = os.stat(place).st_mode & 0o7777 if os.path.exists(place) else 0o644
-        number, temporary = tempfile.mkstemp(dir=os.path.dirname(place), prefix=".curvcli-")
-        with open(number, "wb") as stream:
-            stream.write(content)
-            os.fchmod(stream.fileno(), mode)
-        os.replace(temporary, place)
-        temporary = None
+        os.makedirs(os.path.dirname(os.path.realpath(path)), exist_ok=True)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
-    finally:
-        if temporary is not None:
-            os.unlink(temporary)
+    with Outputs([path], force=True) as outputs, outputs.open(path) as stream:
+        stream.write(content)
     return True
 
 
