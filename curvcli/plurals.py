@@ -7,7 +7,7 @@ import re
 _CHOICE = re.compile(r"\[([^][|]*)\|([^][|]*)\]")
 
 
-def agree(count: int, text: str) -> str:
+def agree(count: float, text: str) -> str:
     """The text with each `[one|many]` as the number demands: `[vertex|vertices] that no face uses`."""
     return _CHOICE.sub(r"\1" if count == 1 else r"\2", text)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .errors import UsageError
+from .plurals import agree
 
 Kind = Literal["rings", "edges", "length"]
 
@@ -42,8 +43,8 @@ class Scale:
     def __str__(self) -> str:
         """For people."""
         number = f"{self.size:g}"
-        rings = f"{number} ring{'s' if self.size != 1 else ''}"
-        edges = f"radius of {number} mean edge length{'s' if self.size != 1 else ''}"
+        rings = agree(self.size, f"{number} [ring|rings]")
+        edges = agree(self.size, f"radius of {number} mean edge [length|lengths]")
         return {"rings": rings, "edges": edges, "length": f"radius of {number}"}[self.kind]
 
 
