@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..analysis import Analysis
-from ..blocks import EPSILON, dot
+from ..blocks import EPSILON
 from ..pipeline import evaluate
 from ..totals import constant_mean_curvature, steiner
 from .base import requirement
@@ -57,7 +57,7 @@ def _largest(analysis: Analysis, key: str, symbol: str, tolerance: float) -> str
     found = surface.in_file_unit(constant_mean_curvature(surface, surface.whole, columns)[key], 1)
     value = float(found[0]) * (0.5 if analysis.conventions.mean == "average" else 1.0)
     if math.isnan(value):
-        inside = surface.interior & (dot(columns["H_vec"], columns["H_vec"]) >= 0)
+        inside = surface.interior & ~np.isnan(columns["H_vec"]).any(axis=0)
         return f"max {symbol} is undefined: " + (oriented(analysis) if inside.any() else "no vertex inside has a value")
     return "" if value <= tolerance else f"max {symbol} = {value:.6g} (allowed {tolerance:g})"
 
