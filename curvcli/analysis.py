@@ -276,5 +276,5 @@ def told(chosen: Iterable[str], settings: Settings, surface: Surface) -> tuple[s
     scales = ",".join(scale.name for scale in settings.scales)
     noise = None
     if "noise" in used:
-        noise = repr(precision(surface).deviation if settings.noise is None else settings.noise)
+        noise = repr(precision(surface) if settings.noise is None else settings.noise)
     return scales if scaled else None, settings.normals if "normals" in used else None, noise

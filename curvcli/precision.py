@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,15 +18,8 @@ _SAMPLE = 4096
 _RANGE = 1e-250, 1e250
 
 
-class Precision(NamedTuple):
-    """Standard deviation of each coordinate in the file's unit, and the words for what it follows from."""
-
-    deviation: float
-    reason: str
-
-
-def precision(surface: Surface) -> Precision:
-    """How far rounding has moved the coordinates of a surface, told from their values.
+def precision(surface: Surface) -> float:
+    """How far rounding has moved the coordinates of a surface, told from their values: a standard deviation.
 
     Those that are all float32 numbers are taken as stored so; those that are all short decimals as written with so many
     digits after the point; the finer of the two where both hold, as for whole numbers; else they are doubles.
@@ -37,18 +29,14 @@ def precision(surface: Surface) -> Precision:
     places = decimals(used, largest)
     if is_single(used):
         limit = float(np.finfo(np.float32).max) / 2
-        step, reason = float(np.spacing(np.float32(min(largest, limit)))), "float32"
-        if places is not None and 10.0**-places < step:
-            step, reason = 10.0**-places, _written(places)
+        step = float(np.spacing(np.float32(min(largest, limit))))
+        if places is not None:
+            step = min(step, 10.0**-places)
     elif places is not None:
-        step, reason = 10.0**-places, _written(places)
+        step = 10.0**-places
     else:
-        step, reason = math.ulp(largest), "float64"
-    return Precision(step * _UNIFORM, reason)
-
-
-def _written(places: int) -> str:
-    return f"{places} decimal{'' if places == 1 else 's'}"
+        step = math.ulp(largest)
+    return step * _UNIFORM
 
 
 def is_single(values: NDArray[np.float64]) -> bool:

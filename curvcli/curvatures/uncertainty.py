@@ -29,7 +29,7 @@ _FLAT, _NOISY = 1e-9, 4.0
 
 def deviation(surface: Surface, noise: float | None) -> float:
     """The standard deviation of each coordinate in the unit of computation."""
-    given = precision(surface).deviation if noise is None else noise
+    given = precision(surface) if noise is None else noise
     return float(np.ldexp(given, -surface.unit_exponent))
 
 
