@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -108,9 +109,27 @@ def _read_array(path: str) -> NDArray[Any]:
 
 
 def _read_lines(path: str) -> NDArray[Any]:
+    try:
+        with open(path, encoding="utf-8-sig") as stream:
+            filled = filter(None, map(str.strip, stream))
+            first = next(filled, "")
+            if not _is_number(first):
+                first = next(filled, "")
+            table = np.loadtxt(chain([first], stream), comments=None, ndmin=2) if first else np.empty((0, 1))
+        if table.shape[1] == 1:
+            return table[:, 0]
+    except UnicodeDecodeError:
+        raise
+    except ValueError:
+        pass
+    return _read_line_by_line(path)
+
+
+def _read_line_by_line(path: str) -> NDArray[Any]:
+    """What Python alone takes for a number, or the line that is none, named."""
     with open(path, encoding="utf-8-sig") as stream:
         lines = [(place, line.strip()) for place, line in enumerate(stream, 1) if line.strip()]
-    if lines and not _is_number(lines[0][1]):
+    if not _is_number(lines[0][1]):
         del lines[0]
     try:
         return np.array([float(text) for _, text in lines])
