@@ -128,10 +128,8 @@ def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Analysis, box:
         if share:
             axes.hlines(share, edge, edge + 1.0, color=sheet.ink, linewidth=0.1 * font)
     axes.set_xlim(-1.0, bins + 1.75)
-    places, labels, _ = ticks(scale.low, scale.high, max(2, int(box[2] / (4.5 * font))))
-    if one.quantity.kind == "count":
-        places = [place for place in places if abs(place - round(place)) < 1e-9]
-        labels = [str(round(place)) for place in places]
+    room = max(2, int(box[2] / (4.5 * font)))
+    places, labels, _ = ticks(scale.low, scale.high, room, whole=one.quantity.kind == "count")
     half = high / 2 - low / 2
     axes.set_xticks([bins * (place / 2 - low / 2) / half for place in places] if half > 0 else [0.5], labels)
     _finish(sheet, axes, box[3], font)

@@ -128,24 +128,25 @@ def _divided_by_area(quantity: Quantity, area: str) -> bool:
     return any(CELL_AREA in one.needs for one in schedule([quantity.name], area))
 
 
-def ticks(low: float, high: float, room: int) -> tuple[list[float], list[str], int]:
-    """Places and labels of at most `room` ticks from low to high, in units of 10 to the power that comes third."""
+def ticks(low: float, high: float, room: int, whole: bool = False) -> tuple[list[float], list[str], int]:
+    """Places and labels of about `room` ticks from low to high, in units of 10 to the power that comes third.
+
+    whole: only at whole numbers, which are written out.
+    """
+    from matplotlib.ticker import MaxNLocator
+
     size = max(abs(low), abs(high))
     if low == high:
         return [low], [number(low, 6)], 0
-    if high / 2 - low / 2 < 1e-4 * size:
+    if high / 2 - low / 2 < 1e-4 * size and not whole:
         return [low, high], [number(low, 6), f"+{number(high - low, 2)}"], 0
-    power = 0 if 1e-2 <= size < 1e4 else max(-300, 3 * math.floor(math.log10(size) / 3))
+    power = 0 if whole or 1e-2 <= size < 1e4 else max(-300, 3 * math.floor(math.log10(size) / 3))
     first, last = low / 10.0**power, high / 10.0**power
-    step = _step((last - first) / max(1, room))
+    locator = MaxNLocator(room, steps=[1, 2, 2.5, 5, 10], integer=whole)
+    found = [float(place) for place in locator.tick_values(first, last)]
+    step = found[1] - found[0]
     digits = next(d for d in range(20) if d == 19 or abs(round(step, d) - step) < 1e-9 * step)
-    count = range(math.ceil(first / step - 1e-9), math.floor(last / step + 1e-9) + 1)
-    places = [k * step for k in count]
+    slack = 1e-9 * step
+    places = [round(place, digits) + 0.0 for place in found if first - slack <= place <= last + slack]
     labels = [f"{place:.{digits}f}".replace("-", "−") for place in places]
     return [place * 10.0**power for place in places], labels, power
-
-
-def _step(least: float) -> float:
-    """The next of 1, 2, 2.5, 5 times a power of ten."""
-    power = 10.0 ** math.floor(math.log10(least))
-    return next(power * factor for factor in (1, 2, 2.5, 5, 10) if power * factor >= least * (1 - 1e-9))

@@ -59,6 +59,8 @@ def test_ticks_are_what_their_labels_say() -> None:
     assert (labels, power) == (["0", "100", "200", "300", "400", "500"], -9)
     assert places == pytest.approx([0, 1e-7, 2e-7, 3e-7, 4e-7, 5e-7])
     assert ticks(1.0, 1.0 + 1e-9, 5)[1] == ["1", "+1·10⁻⁹"]
+    assert ticks(3, 5, 9, whole=True) == ([3, 4, 5], ["3", "4", "5"], 0)
+    assert ticks(100_000, 100_001, 9, whole=True)[1] == ["100000", "100001"]
 
 
 def test_labels_have_colours_of_their_own() -> None:
