@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import math
 
 import numpy as np
 import pytest
@@ -13,9 +14,20 @@ from curvcli.output.look import Look, arrange, check_look, parse_size, parse_vie
 from tests.meshes import of_sample
 
 
-@pytest.mark.parametrize("view", ["iso", "front", "top", " FIT ", "30,-20", "-360,90", "1.5,2"])
-def test_views(view: str) -> None:
-    parse_view(view)
+@pytest.mark.parametrize(
+    ("view", "angles"),
+    [
+        ("iso", (-45, math.degrees(math.asin(1 / math.sqrt(3))))),
+        ("front", (-90, 0)),
+        ("top", (-90, 90)),
+        (" FIT ", None),
+        ("30,-20", (30, -20)),
+        ("-360,90", (-360, 90)),
+        ("1.5,2", (1.5, 2)),
+    ],
+)
+def test_views(view: str, angles: tuple[float, float] | None) -> None:
+    assert parse_view(view) == angles
 
 
 @pytest.mark.parametrize("view", ["", "side", "30", "30,91", "1e3,0", "nan,0", "1,2,3", "3 0,2"])
