@@ -175,7 +175,8 @@ drawing = together(
         metavar="iso|front|top|fit|AZ,EL",
         default="iso",
         show_default=True,
-        help="From where a picture is taken: azimuth and elevation in degrees; fit: where the surface is widest.",
+        help="From where a picture is taken: azimuth and elevation in degrees; fit: along the direction in which the "
+        "surface is thinnest.",
     ),
     click.option(
         "--up",
