@@ -16,6 +16,7 @@ from curvcli.maps import SurfaceMap
 from curvcli.pages import PAGES, PARTS, current
 from curvcli.report.quantities import public
 from curvcli.requirements import kinds
+from curvcli.samples import names
 from tests import meshes
 from tests.docs.pages import NAMES, ROOT, text
 
@@ -30,6 +31,10 @@ def test_every_page_and_part_is_shown() -> None:
     assert {f"docs/{name}" for name in PAGES} <= set(NAMES)
     for part in PARTS:
         assert any(f"<!-- made: {part} -->" in text(name) for name in NAMES), part
+
+
+def test_the_readme_counts_the_samples() -> None:
+    assert f" {len(names())} test surfaces" in text("README.md")
 
 
 def test_every_quantity_says_what_it_is() -> None:
