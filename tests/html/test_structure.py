@@ -163,6 +163,13 @@ def test_warnings_come_with_their_hints() -> None:
         assert notice.hint is None or notice.hint in text
 
 
+def test_vectors_are_told_without_the_marks_of_markdown() -> None:
+    assert "**" in curvcli.passes.quantity("h_sigma").description
+    text = page_of(curvcli.analyze(tetrahedron().surface(), ["h_sigma", "K_density"])).decode()
+    assert "**H**" not in text
+    assert "∂H" in text
+
+
 def test_names_from_the_file_are_text(tmp_path: Path) -> None:
     path = labelled(grid(), tmp_path / "<script>alert(2)<&\x1b\n'.obj", HOSTILE)
     analysis = curvcli.analyze(str(path), regions="groups")

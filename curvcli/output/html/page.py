@@ -14,6 +14,7 @@ from ...checks.base import rules
 from ...printable import shown
 from ...report.build import model
 from ...report.proof import holds, proof
+from ...report.quantities import unmarked
 from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ..camera import frame
 from ..look import VIEWS, Look, parse_view
@@ -60,7 +61,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    templates.filters |= {"number": number, "hex": hex_color, "exact": _exact, "coded": _coded}
+    templates.filters |= {"number": number, "hex": hex_color, "exact": _exact, "coded": _coded, "unmarked": unmarked}
     source: Callable[[str], str] = lambda name: templates.loader.get_source(templates, name)[0]  # type: ignore[union-attr]  # noqa: E731
     chosen = columns(analysis, appearance, colored)
     display, blocks = _fitted(analysis, chosen)
