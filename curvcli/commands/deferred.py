@@ -11,7 +11,7 @@ from types import ModuleType
 NEVER_USED = (
     *("numpy.f2py", "numpy.polynomial", "numpy.testing"),
     *("scipy.ndimage", "scipy.optimize", "scipy.spatial.transform"),
-    *("trimesh.nsphere", "trimesh.path.polygons", "trimesh.path.simplify"),  # they take functions of scipy.optimize
+    *("trimesh.nsphere", "trimesh.path.simplify"),  # which take functions out of scipy.optimize
 )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,8 @@ class Described:
         """The content of the file."""
         alternatives, definitions = msgspec.json.schema_components(self.types)
         for one in definitions.values():
+            if "description" in one:
+                one["description"] = cleandoc(one["description"])  # as Python keeps docstrings from 3.13 on
             for value in one.get("properties", {}).values():
                 if value.get("default") == __version__:
                     del value["default"]  # a default only for who writes it

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -44,5 +45,6 @@ def test_a_run_does_without_them(tmp_path: Path) -> None:
     done = subprocess.run(words, env=environment(), capture_output=True, text=True)
     assert done.returncode == 0
     assert "trimesh.base" in done.stderr
-    run = re.findall(rf"\| +(?:{'|'.join(map(re.escape, NEVER_USED))})\.\w+", done.stderr)
+    taken = {"scipy.optimize"} if find_spec("shapely") else set()  # by the polygons of trimesh, which need both
+    run = re.findall(rf"\| +(?:{'|'.join(map(re.escape, {*NEVER_USED} - taken))})\.\w+", done.stderr)
     assert run == []
