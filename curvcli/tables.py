@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Collection, Sequence
+from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 
+import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from .declare import Element, passes
 from .loading.model import Labels
+from .report.model import POWERS, Coefficients
 
 if TYPE_CHECKING:
     from .analysis import Analysis
+    from .report.model import Piece
 
 Table = dict[str, Any]
 
@@ -88,14 +90,17 @@ def component_table(analysis: Analysis) -> Table:
     """One row per component: topology, totals and the rest of the report."""
     from .report.build import pieces
 
-    return _piece_table("component", pieces(analysis, analysis.surface.components))
+    found = pieces(analysis, analysis.surface.components)
+    return {"component": np.arange(len(found), dtype=np.int32)} | _piece_columns(found)
 
 
 def region_table(analysis: Analysis) -> Table:
-    """One row per region: topology, totals and the rest of the report; no rows without `--regions`."""
+    """One row per region, by its label: topology, totals and the rest of the report; no rows without `--regions`."""
     from .report.build import pieces
 
-    return _piece_table("region", pieces(analysis.cut, analysis.cut_groups) if analysis.cut is not None else [])
+    found = [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
+    names = () if analysis.regions is None else analysis.regions.names
+    return {"region": _words(names)} | _piece_columns(found)
 
 
 def loop_table(analysis: Analysis) -> Table:
@@ -105,45 +110,47 @@ def loop_table(analysis: Analysis) -> Table:
     return loops(analysis.surface)
 
 
-def _piece_table(kind: str, pieces: list[Any]) -> Table:
-    rows = [_flat(piece) for piece in pieces]
-    names: dict[str, None] = {key: None for row in rows for key in row}
-    table: Table = {kind: np.arange(len(rows), dtype=np.int32)}
-    for name in names:
-        table[name] = _column([row.get(name) for row in rows])
+def _piece_columns(pieces: list[Piece]) -> Table:
+    """The values of pieces under the report's last keys; what there is and its types follow from what was computed."""
+    table: Table = {}
+    for section, first in (msgspec.structs.asdict(pieces[0]) if pieces else {}).items():
+        each = [getattr(piece, section) for piece in pieces]
+        if isinstance(first, str):
+            table[section] = _words(each)
+        elif section == "totals":
+            vectors = {quantity.total for quantity in passes.quantities(public=False) if quantity.vector}
+            for key in first:
+                table |= _numbers(key, [totals[key] for totals in each], "xyz" if key in vectors else ())
+        elif isinstance(first, msgspec.Struct):
+            for key, declared in get_type_hints(type(first), include_extras=True).items():
+                name = key if section == "topology" else f"{section}_{key}"
+                table |= _declared(name, [getattr(part, key) for part in each], declared)
     return table
 
 
-def _flat(piece: Any) -> dict[str, Any]:
-    """The values of one piece under the report's last keys; vectors by component."""
-    import msgspec
-
-    flat: dict[str, Any] = {}
-    for section, value in msgspec.to_builtins(piece).items():
-        if not isinstance(value, Mapping):
-            flat[section] = value
-            continue
-        for key, entry in value.items():
-            name = key if section in ("topology", "totals") else f"{section}_{key}"
-            if isinstance(entry, list):
-                suffixes = "xyz" if len(entry) == 3 else [str(power) for power in range(len(entry))]
-                flat |= {f"{name}_{suffix}": part for suffix, part in zip(suffixes, entry, strict=True)}
-            else:
-                flat[name] = entry
-    return flat
+def _declared(name: str, values: list[Any], declared: Any) -> Table:
+    """The column of a key of the report, or its columns, in the type that is declared of it."""
+    if declared in (bool, int):
+        return {name: np.array(values, declared)}
+    if int in get_args(declared):
+        nulls = [value is None for value in values]
+        return {name: np.ma.masked_array([value or 0 for value in values], nulls, np.int64)}
+    return _numbers(name, values, range(POWERS) if Coefficients in get_args(declared) else ())
 
 
-def _column(values: list[Any]) -> Any:
-    known = [value for value in values if value is not None]
-    if known and all(isinstance(value, str) for value in known):
-        number = {name: code for code, name in enumerate(dict.fromkeys(known))}
-        return Labels(np.array([number.get(value, -1) for value in values], np.int32), tuple(number))
-    if known and all(isinstance(value, bool) for value in known) and len(known) == len(values):
-        return np.array(values, bool)
-    if known and all(isinstance(value, int) for value in known):
-        filled: NDArray[Any] = np.array([0 if value is None else value for value in values], np.int64)
-        return np.ma.masked_array(filled, [value is None for value in values])
-    return np.array([np.nan if value is None else value for value in values], np.float64)
+def _numbers(name: str, values: list[Any], parts: Collection[object]) -> Table:
+    """Numbers as one column, vectors as one column for each of their parts; NaN for null, whole or in part."""
+    if not parts:
+        return {name: np.array(values, np.float64)}
+    nothing = [None] * len(parts)
+    rows = np.array([nothing if value is None else value for value in values], np.float64)
+    return {f"{name}_{part}": column for part, column in zip(parts, rows.T, strict=True)}
+
+
+def _words(values: Sequence[str]) -> Labels:
+    names = tuple(dict.fromkeys(values))
+    number = {name: code for code, name in enumerate(names)}
+    return Labels(np.array([number[value] for value in values], np.int32), names)
 
 
 TABLES: dict[str, Callable[[Analysis], Table]] = {

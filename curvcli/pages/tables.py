@@ -41,6 +41,7 @@ def page_part() -> str:
     for kind in ("loops", "components", "regions"):
         names = ", ".join(f"`{name}`" for name in TABLES[kind](example))
         parts += [f"### {kind}\n", f"{names}\n"]
+    parts += ["`region` is the label, as in the table of faces, and `name` the same under the key of the report.\n"]
     return "\n".join(parts)
 
 

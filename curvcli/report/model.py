@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 
@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from ..loading.model import MeshFile
 
 Value = float | list[float | None] | None
+
+# Of a polynomial of degree 3, lowest power first.
+POWERS = 4
+Coefficients = Annotated[list[float | None], msgspec.Meta(min_length=POWERS, max_length=POWERS)]
 
 # Of the analysis, in the order of the report.
 CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals", "noise")
@@ -70,7 +74,7 @@ class Minimal(msgspec.Struct):
 class Steiner(msgspec.Struct):
     """Steiner's polynomial, lowest power first; exact for convex bodies."""
 
-    coefficients: list[float | None] | None
+    coefficients: Coefficients | None
     convex: bool
 
 

@@ -136,10 +136,39 @@ def test_every_table(name: str, suffix: str, within: Run, tmp_path: Path) -> Non
     assert got["loops"]["loop"] == list(range(len(report["loops"])))
     if report["loops"]:
         agree(got["loops"], spread(report["loops"]))
-    for kind, key in (("regions", "region"), ("components", "component")):
-        assert got[kind][key] == list(range(len(report[kind])))
+    for kind in ("regions", "components"):
         agree(got[kind], of_pieces(report[kind]))
+    assert got["components"]["component"] == list(range(len(report["components"])))
+    assert got["regions"]["name"] == got["regions"]["region"]
     assert got["regions"]["name"] in ([0, 1, 2], ["0", "1", "2"])
+
+
+def test_tables_of_pieces_have_the_same_columns_whatever_the_mesh(within: Run, tmp_path: Path) -> None:
+    """Vectors and numbers that no piece has, one piece has, or all have: the names and the types stay."""
+    found = []
+    for name in ("mobius", "two_components", "annulus", "pinched"):
+        mesh, labels = saved(name, tmp_path)
+        tables = [part for kind in ("components", "regions") for part in ("--table", f"{kind}={kind}.parquet")]
+        wrote(within("analyze", mesh, "-q", "-p", "paper", "--regions", labels, *tables, "--force"))
+        found.append([polars.read_parquet_schema(f"{kind}.parquet") for kind in ("components", "regions")])
+    # The words of a column of labels are part of its type.
+    shown = [[(key, type(kind)) for table in tables for key, kind in table.items()] for tables in found]
+    assert shown[1:] == shown[:1] * 3
+    assert dict(found[0][0])["genus"] == polars.Int64
+    names = [key for key, _ in shown[0]]
+    assert {"A_vec_x", "steiner_coefficients_3"} < set(names)
+    assert not {"A_vec", "steiner_coefficients"} & set(names)
+
+
+def test_faces_and_regions_join_on_the_label(within: Run, tmp_path: Path) -> None:
+    mesh, labels = saved("annulus", tmp_path)
+    count = len(labels.read_text().split())
+    labels.write_text("\n".join(["7"] * 10 + ["5"] * (count - 10)))
+    tables = [part for kind in ("faces", "regions") for part in ("--table", f"{kind}={kind}.csv")]
+    wrote(within("analyze", mesh, "-q", "--regions", labels, *tables))
+    faces, regions = read(Path("faces.csv")), read(Path("regions.csv"))
+    counted = {label: faces["region"].count(label) for label in (5, 7)}
+    assert dict(zip(regions["region"], regions["faces"], strict=True)) == counted == {5: count - 10, 7: 10}
 
 
 def test_only_labels_that_some_face_has(within: Run, tmp_path: Path) -> None:
