@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import cached_property
 from typing import Any
 
@@ -12,10 +13,12 @@ from .blocks import EPSILON, dot
 from .checks.base import Check, CheckRule, Outcome, rounding
 from .cotangents import Dirichlet, dirichlet
 from .errors import InputError, Notice
+from .findings import out_of_range
 from .loading.surfaces import as_surface
 from .plurals import counted
 from .stretch import Stretch, stretch
 from .surface import Surface
+from .totals import lost
 
 Floats = NDArray[np.float64]
 
@@ -103,17 +106,38 @@ class SurfaceMap:
     # ------------------------------------------------------------------ integrals
 
     @cached_property
-    def totals(self) -> dict[str, float]:
-        """`dirichlet` E(f), `area` of M, `image_area`, `nonconformality` E(f) − area f(M) as a sum over faces."""
+    def _sums(self) -> dict[str, tuple[Surface, Floats]]:
+        """Each total in the unit of computation, and whose that is."""
         s = self.stretch
-        sums = {
+        columns = {
             "dirichlet": (self.image, self._cotangent.energy),
             "area": (self.source, s.area),
             "image_area": (self.image, s.image_area),
             "nonconformality": (self.image, s.nonconformality),
         }
+        return {name: (unit, np.asarray(np.nansum(values))) for name, (unit, values) in columns.items()}
+
+    @cached_property
+    def totals(self) -> dict[str, float]:
+        """`dirichlet` E(f), `area` of M, `image_area`, `nonconformality` E(f) − area f(M) as a sum over faces."""
         # Summed before they are turned into the file's unit, where a single face may be out of range.
-        return {name: float(unit.in_file_unit(np.nansum(values), 2)) for name, (unit, values) in sums.items()}
+        return {name: float(unit.in_file_unit(total, 2)) for name, (unit, total) in self._sums.items()}
+
+    @property
+    def _lost(self) -> Counter[str]:
+        """How many values of each column and total no double holds in the file's unit."""
+        s = self.stretch
+        columns = [
+            ("sigma_1", s.sigma_1, self.sigma_1),
+            ("sigma_2", s.sigma_2, self.sigma_2),
+            ("nonconformality", s.nonconformality, self.nonconformality),
+            ("area", s.area, self.area),
+            ("image_area", s.image_area, self.image_area),
+            ("gradient", self._gradient, self.gradient.T),
+        ]
+        found = Counter({name: int(np.count_nonzero(np.isnan(at) & ~np.isnan(own))) for name, own, at in columns})
+        found.update({name: lost(unit, total, 2) for name, (unit, total) in self._sums.items()})
+        return found
 
     @cached_property
     def harmonic(self) -> tuple[float, int | None, float]:
@@ -157,7 +181,7 @@ class SurfaceMap:
 
     @cached_property
     def notices(self) -> list[Notice]:
-        """Faces on which the map is undefined, and faces that it flattens."""
+        """Faces on which the map is undefined, faces that it flattens, and what the file's unit cannot hold."""
         collapsed = np.flatnonzero(self.stretch.collapsed)
         told = (
             (
@@ -173,7 +197,8 @@ class SurfaceMap:
                 "f is not injective there: σ₂ is 0, and no angle is kept",
             ),
         )
-        return [Notice.at(code, at, text, hint) for code, at, text, hint in told if len(at)]
+        found = [Notice.at(code, at, text, hint) for code, at, text, hint in told if len(at)]
+        return [*found, *out_of_range(self._lost)]
 
     # ------------------------------------------------------------------ tables
 

@@ -153,7 +153,9 @@ def test_scale_of_source_and_image(exponent: int) -> None:
     g = map_to(given, image * factor)
     np.testing.assert_array_equal(g.sigma_2, base.sigma_2 * factor)
     np.testing.assert_array_equal(g.harmonic_residual, base.harmonic_residual * factor)
-    assert statuses(f) | statuses(g) == {"pass"}
+    assert statuses(f) == {"pass"}
+    # 2^-1200 is no double, and no energy of g has another size.
+    assert statuses(g) == {"not_applicable" if exponent == -600 else "pass"}
 
 
 # ---------------------------------------------------------------------------- faces without area

@@ -23,6 +23,9 @@ Mask = NDArray[np.bool_]
 # What is said of every group, or of each.
 Words = str | Callable[[int], str]
 
+# The numbers of a check, in the order of its fields.
+_PARTS = ("value", "expected value", "residual", "tolerance")
+
 
 @dataclass(frozen=True)
 class Check:
@@ -109,7 +112,13 @@ class CheckRule:
                 return Check(self.name, scope, "not_applicable", None, None, None, None, _said(reason, group))
         detail = _said(outcome.detail, group)
         value, expected, residual, tolerance = (_plain(side) for side in shown)
-        return Check(self.name, scope, "pass" if passed else "fail", value, expected, residual, tolerance, detail)
+        if not passed:
+            return Check(self.name, scope, "fail", value, expected, residual, tolerance, detail)
+        null = [part for part, side in zip(_PARTS, shown, strict=True) if not np.isfinite(side).all()]
+        if null:
+            reason = f"no double holds its {', '.join(null)} in the file's unit"
+            return Check(self.name, scope, "not_applicable", None, None, None, None, reason)
+        return Check(self.name, scope, "pass", value, expected, residual, tolerance, detail)
 
 
 rules: dict[str, CheckRule] = {}

@@ -17,7 +17,7 @@ not the mesh. A *requirement* is a property that a mesh has or has not.
 `curvcli analyze` tests each identity whose quantities are computed anyway; `curvcli check` tests all of them, and the
 requirements. Each is tested on the whole surface, on every component, and on every region where there are regions.
 The status is `pass`, `fail`, or `not_applicable` with the reason; an identity with an undefined term is not applicable,
-never passed.
+never passed, nor is one whose sides no double holds in the file's unit.
 
 ## When an identity fails
 

@@ -55,6 +55,20 @@ def test_report(within: Run, square: Path, stretched: Path) -> None:
     }
 
 
+def test_results_that_no_double_holds(within: Run, square: Path) -> None:
+    huge = square.with_name("huge.obj")
+    huge.write_text(
+        square.read_text().replace("v 1 ", "v 1e200 ").replace(" 1 0\n", " 1e200 0\n").replace(".5", ".5e200")
+    )
+    code, out, _ = within("compare", square, huge, "--map", "--json")
+    report = json.loads(out)
+    assert (code, report["totals"]["dirichlet"]) == (0, None)
+    assert [check["status"] for check in report["checks"]] == ["not_applicable"] * 2
+    (warning,) = report["warnings"]
+    assert warning["code"] == "out_of_range"
+    assert {"image_area", "dirichlet"} <= set(warning["message"].partition(": ")[2].split(", "))
+
+
 def test_one_value(within: Run, square: Path, stretched: Path) -> None:
     assert within("compare", square, stretched, "--map", "--get", "totals.area") == (0, "1.0\n", "")
     assert within("compare", square, stretched, "--map", "--get", "checks.nonconformality.status")[1] == "pass\n"

@@ -12,6 +12,7 @@ import pytest
 
 import curvcli
 from curvcli.analysis import Analysis
+from curvcli.checks import rules
 from curvcli.errors import InputError, Notice
 from curvcli.findings import welding
 from curvcli.loading.weld import weld_exact
@@ -60,6 +61,32 @@ def test_results_that_no_double_holds_are_counted_and_named(exponent: int) -> No
         assert told is not None
         assert told.message.endswith("left undefined: volume")
         assert far.totals["volume"] is None
+
+
+@pytest.mark.parametrize("exponent", [100, 498, 664, 1000, -498, -664, -1000])
+def test_no_check_passes_on_numbers_that_no_double_holds(exponent: int) -> None:
+    """A check that passes shows all its numbers; one that cannot says for which there is no double."""
+    plain, far = (analysis(scaled(power), "paper") for power in (0, exponent))
+    assert [check.name for check in far.checks] == [check.name for check in plain.checks]
+    changed = 0
+    for check, known in zip(far.checks, plain.checks, strict=True):
+        shown = [check.value, check.expected, check.residual, check.tolerance]
+        if check.status == "pass":
+            assert not np.isnan(np.hstack([np.array(side, float) for side in shown])).any()
+        elif known.status == "pass":
+            assert (check.status, shown) == ("not_applicable", [None] * 4)
+            assert re.fullmatch(r"no double holds its [a-z, ]+ in the file's unit", check.detail)
+            changed += 1
+    assert bool(changed) == (exponent != 100)
+
+
+def test_a_failing_check_fails_in_any_unit() -> None:
+    """What rounding cannot explain in the unit of computation fails, whether or not doubles hold it in the file's."""
+    surface = Surface(scaled(-1000).points, scaled(-1000).faces)
+    columns = dict(analysis(scaled(-1000), "paper").columns)
+    columns["area_gradient"] = columns["area_gradient"] + 1.0
+    (check,) = rules["area_gradient"].run(surface, surface.whole, columns)
+    assert (check.status, check.tolerance) == ("fail", None)
 
 
 def test_nothing_is_out_of_range_where_it_was_never_defined() -> None:
