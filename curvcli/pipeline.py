@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import replace
-from difflib import get_close_matches
 from functools import cache
 from graphlib import TopologicalSorter
 from typing import TYPE_CHECKING, Any
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from .declare import AT_SCALE, CELL_AREA, CELL_AREAS, NO_QUANTITIES, SURFACE, Pass, Quantity, passes
 from .errors import UsageError
+from .nearest import nearest
 from .neighbourhoods import forget
 from .settings import DEFAULTS, Settings
 
@@ -67,7 +67,7 @@ def resolve(names: Iterable[str]) -> list[str]:
         elif name in public or name in stems:
             wanted.add(stems.get(name, name))
         else:
-            near = get_close_matches(name, [*named, *public], 3, 0.4)
+            near = nearest(name, [*named, *public])
             way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
             raise UsageError(f"unknown pass {name!r}; {way_out}")
     return in_order(name for name in public if name in wanted)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from difflib import get_close_matches
 from typing import Any, TypedDict
 
 from rich.markup import escape
@@ -11,6 +10,7 @@ from rich.table import Table
 
 from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
 from ..errors import UsageError
+from ..nearest import nearest
 from ..pipeline import in_order, load_passes, resolve
 from .advice import plain
 from .console import report_console
@@ -55,13 +55,13 @@ def public() -> list[Quantity]:
 
 
 def find(name: str) -> Quantity:
-    """A quantity by its name or by the name of one of its columns.
+    """A quantity by its name or by the name of one of its columns, of vertices where those of edges are called so too.
 
     Errors: UsageError with the nearest names.
     """
-    known = {column: quantity for quantity in public() for column in (quantity.name, *quantity.columns)}
+    known = {column: quantity for quantity in reversed(public()) for column in (quantity.name, *quantity.columns)}
     if name not in known:
-        near = get_close_matches(name, known, 3, 0.4)
+        near = nearest(name, known)
         way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
         raise UsageError(f"no quantity is called {name!r}; {way_out}")
     return known[name]

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 
 import pytest
 
-from curvcli.report.quantities import public
-from tests.cli.program import curvcli, wrote
+from curvcli.pipeline import resolve
+from curvcli.report.quantities import find, public
+from tests.cli.program import CUBE, Ended, curvcli, wrote
 from tests.columns import PUBLIC
+
+Run = Callable[..., Ended]
 
 
 def test_the_list() -> None:
@@ -51,3 +55,18 @@ def test_a_component_of_a_vector_names_the_vector() -> None:
     ended = curvcli("passes", "A_vec_x", "--json")
     wrote(ended)
     assert json.loads(ended.out)["name"] == "A_vec"
+
+
+@pytest.mark.parametrize("column", [column for quantity in PUBLIC.values() for column in quantity.columns])
+def test_a_column_is_explained_as_the_one_that_is_computed(column: str) -> None:
+    """Vertices and edges both have H_vec_x; `-p` computes that of vertices."""
+    assert find(column).name == resolve([column])[0]
+
+
+@pytest.mark.parametrize(("name", "meant"), [("CORE", "core"), ("k", "K"), ("h_VEC", "H_vec")])
+def test_names_in_another_case_are_near(name: str, meant: str, within: Run) -> None:
+    for arguments in (("analyze", CUBE, "-p", name), ("passes", name)):
+        if meant != "core" or arguments[0] == "analyze":
+            ended = within(*arguments)
+            assert ended.code == 2
+            assert f"nearest: {meant}" in ended.complaint
