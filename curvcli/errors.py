@@ -23,6 +23,10 @@ class MissingExtraError(UsageError):
     """A feature whose optional packages are not installed; the message says how to install them."""
 
 
+class LackingError(UsageError):
+    """What an option names and a mesh lacks; of several meshes, an error of that one, which the others may have."""
+
+
 class InputError(CurvcliError):
     """A mesh that is missing, cannot be read, is empty, or breaks a rule that no option relaxes.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from .errors import InputError, NoMatchError, OutputError, UsageError
+from .errors import InputError, LackingError, NoMatchError, OutputError, UsageError
 
 OK, FAILED_CHECK, USAGE, INPUT, OUTPUT, NO_MATCH, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130
 
@@ -32,6 +32,16 @@ _WORST_FIRST = (INTERNAL, OUTPUT, INPUT, FAILED_CHECK, OK)
 def exit_code(error: BaseException) -> int:
     """The exit code of a cause."""
     return next((code for cause, code in _OF_CAUSES if isinstance(error, cause)), INTERNAL)
+
+
+def exit_code_of_one(error: BaseException) -> int:
+    """The exit code of a cause that stops one of several inputs."""
+    return INPUT if isinstance(error, LackingError) else exit_code(error)
+
+
+def stops_all(error: BaseException) -> bool:
+    """Whether a cause lies in the options, and so in none of several inputs."""
+    return isinstance(error, UsageError) and not isinstance(error, LackingError)
 
 
 def worst(codes: Iterable[int]) -> int:

@@ -16,12 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .census import census
-from .errors import InputError, Notice, UsageError
+from .errors import InputError, LackingError, Notice
 from .groups import Groups, by_label
 from .surface import CutFrom, Surface
 from .topology import Index
 
-LABELS = ("groups", "objects", "materials")
 FILES = (".npy", ".csv", ".txt")
 MAGIC = b"\x93NUMPY"
 
@@ -56,15 +55,13 @@ def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
 
     Labels are given per polygon of the file, or per triangle where there are as many; a polygon's label passes to its
     triangles. A negative label is no region.
-    Errors: UsageError for a name that is none of these; InputError for labels that do not fit.
+    Errors: LackingError for a name that is none of these; InputError for labels that do not fit.
     """
     if not isinstance(chosen, str):
         return _from_labels(surface, np.asarray(chosen), "the labels")
     file = surface.file
-    if chosen in LABELS:
-        records = file.polygon_labels.get(chosen) if file is not None else None
-        if records is None:
-            raise UsageError(f"--regions {chosen}: the mesh has no {chosen}; {_offered(surface)}")
+    if file is not None and chosen in file.polygon_labels:
+        records = file.polygon_labels[chosen]
         codes = _per_face(surface, records.codes, chosen)
         if codes.max() < 0:
             raise InputError(f"{chosen}: no face comes after such a record, expected at least one")
@@ -73,7 +70,7 @@ def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
         return _from_labels(surface, file.polygon_properties[chosen], f"face property {chosen}")
     if os.path.splitext(chosen)[1].lower() in FILES:
         return _from_labels(surface, read_labels(chosen), chosen)
-    raise UsageError(
+    raise LackingError(
         f"--regions {chosen}: neither a label of this mesh nor a .npy, .csv or .txt file; {_offered(surface)}"
     )
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import CurvcliError, UsageError
-from ..exits import exit_code, worst
+from ..errors import CurvcliError, LackingError
+from ..exits import exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
 from ..memory import ran_out
 from ..plurals import counted
@@ -136,11 +136,12 @@ class Run:
 
         try:
             return self.judged(mesh)
-        except UsageError:
-            raise
         except CurvcliError as error:
-            say(str(error))
-            return failed_input(mesh, str(error).removeprefix(f"{mesh}: "), exit_code(error))
+            if stops_all(error) or (len(self.meshes) == 1 and isinstance(error, LackingError)):
+                raise
+            problem = str(error).removeprefix(f"{mesh}: ")
+            say(f"{mesh}: {problem}" if isinstance(error, LackingError) else str(error))
+            return failed_input(mesh, problem, exit_code_of_one(error))
         except (MemoryError, OSError):
             raise
         except Exception as error:

@@ -183,3 +183,32 @@ def test_one_file_of_labels_for_two_meshes(within: Run) -> None:
     assert (ended.code, ended.complaint) == (3, "single.obj: labels.txt: 3 labels, expected 1")
     assert not os.path.exists("single.csv")
     assert os.path.exists("plain.csv")
+
+
+@pytest.mark.parametrize("regions", ["groups", "part"])
+def test_labels_that_one_of_several_meshes_lacks(within: Run, regions: str) -> None:
+    """It is an error of that mesh, and the others are done."""
+    ply = parts_of_a_ply(regions)
+    ended = within("analyze", "plain.obj", ply, "--regions", regions, "-q", "-o", "{stem}.csv")
+    assert ended.code == 3
+    assert ended.complaint.startswith(f"plain.obj: --regions {regions}: ")
+    assert (os.path.exists("plain.csv"), os.path.exists("parts.csv")) == (False, True)
+    ended = within("check", "plain.obj", ply, "--regions", regions, "--format", "json")
+    assert ended.code == 3
+    assert [mesh["status"] for mesh in json.loads(ended.out)["meshes"]] == ["error", "pass"]
+    assert within("check", "plain.obj", "--regions", regions).code == 2
+
+
+@pytest.mark.parametrize("name", ["groups", "objects", "materials"])
+def test_a_property_may_be_called_as_records_are(within: Run, name: str) -> None:
+    assert faces(named(within, parts_of_a_ply(name), name)) == {"2": 1, "4": 3}
+
+
+def parts_of_a_ply(name: str) -> str:
+    """The three polygons as PLY, with a property of faces."""
+    head = f"ply\nformat ascii 1.0\nelement vertex {len(POINTS)}\n"
+    head += "".join(f"property double {axis}\n" for axis in "xyz") + f"element face 3\nproperty int {name}\n"
+    head += "property list uchar int vertex_indices\nend_header\n"
+    rows = "".join(f"{x} {y} {z}\n" for x, y, z in POINTS)
+    Path("parts.ply").write_text(head + rows + "4 4 0 1 2 3\n2 3 1 4 2\n4 3 4 5 2\n")
+    return "parts.ply"
