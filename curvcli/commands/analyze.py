@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import CurvcliError, UsageError
-from ..exits import FAILED_CHECK, OK, exit_code, worst
+from ..errors import CurvcliError, LackingError, UsageError
+from ..exits import FAILED_CHECK, OK, exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
 from ..memory import ran_out
 from . import options
@@ -134,12 +134,13 @@ class Run:
             for mesh, paths, tables in zip(self.meshes, self.paths, self.tables, strict=True):
                 try:
                     analysis = self.one(mesh, paths, tables, everything)
+                    reports.append(self.tell(analysis))
+                    codes.append(FAILED_CHECK if self.strict and not analysis.passed else OK)
                 except CurvcliError as error:
-                    if len(self.meshes) == 1 or isinstance(error, UsageError):
+                    if len(self.meshes) == 1 or stops_all(error):
                         raise
-                    say(str(error))
-                    codes.append(exit_code(error))
-                    continue
+                    say(f"{mesh}: {error}" if isinstance(error, LackingError) else str(error))
+                    codes.append(exit_code_of_one(error))
                 except (MemoryError, OSError):
                     raise
                 except Exception as error:
@@ -147,9 +148,6 @@ class Run:
                         raise
                     say(f"{mesh}: {internal(error)}")
                     codes.append(exit_code(error))
-                    continue
-                reports.append(self.tell(analysis))
-                codes.append(FAILED_CHECK if self.strict and not analysis.passed else OK)
         if self.as_json:
             from ..report.model import encode
 

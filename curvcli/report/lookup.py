@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from typing import Any
 
 import msgspec
 
-from ..errors import UsageError
+from ..errors import LackingError
+from ..nearest import nearest
+from .model import Piece
+from .quantities import public, smallest_preset
 
 
 def look_up(report: dict[str, Any], path: str) -> str:
     """The value at a dotted path as text: numbers in their shortest form, `null` where undefined, JSON for the rest.
 
-    Members of lists are named by index, or by their `name` or `code`: `checks.gauss_bonnet.status`, `components.0`.
-    Errors: UsageError for a path that leads nowhere, with the keys there are.
+    Members of lists are named by index, or by a `name` or `code` that is no index: `checks.gauss_bonnet.status`,
+    `components.0`.
+    Errors: LackingError for a path that leads nowhere, with the keys there are, or the passes that a key needs.
     """
     value: Any = report
     walked = ""
     for key in path.split("."):
         members = _members(value)
         if key not in members:
-            near = get_close_matches(key, members, 3, 0.4) or list(members)[:12]
-            place = f"in {walked}" if walked else "in the report"
-            if not near:
-                raise UsageError(f"--get {path}: {walked} is a single value")
-            raise UsageError(f"--get {path}: no {key!r} {place}, expected one of {', '.join(near)}")
+            raise LackingError(f"--get {path}: {_why_not(report, value, walked, key)}")
         value = members[key]
         walked = f"{walked}.{key}" if walked else key
     if isinstance(value, str):
@@ -38,8 +37,33 @@ def _members(value: Any) -> dict[str, Any]:
         return value
     if not isinstance(value, list):
         return {}
-    members = {str(index): member for index, member in enumerate(value)}
+    members: dict[str, Any] = {}
     for member in reversed(value):
         if isinstance(member, dict) and (name := member.get("name", member.get("code"))) is not None:
             members[name] = member
-    return members
+    return members | {str(index): member for index, member in enumerate(value)}
+
+
+def _why_not(report: dict[str, Any], value: Any, walked: str, key: str) -> str:
+    """What there is instead of a key, or which passes add it."""
+    if value in ([], {}):
+        return f"{walked} is empty"
+    members = _members(value)
+    if not members:
+        return f"{walked} is a single value"
+    # Only the report of analyze has passes to choose.
+    if "topology" in report and (added := _added_by(key, members, walked)):
+        return f"is not computed; {added} adds it"
+    near = nearest(key, members) or list(members)[:12]
+    return f"no {key!r} {f'in {walked}' if walked else 'in the report'}, expected one of {', '.join(near)}"
+
+
+def _added_by(key: str, members: dict[str, Any], walked: str) -> str | None:
+    """The passes that add a key to a report; None for one that it never has."""
+    if "topology" in members:
+        return "-p paper" if key in Piece.__struct_fields__ and key != "name" else None
+    for quantity in public():
+        keys = {"totals": (quantity.total,), "columns": quantity.columns if quantity.on == "vertex" else ()}
+        if key in keys.get(walked.rpartition(".")[2], ()):
+            return f"-p {smallest_preset(quantity)} or -p {quantity.name}"
+    return None

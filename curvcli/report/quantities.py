@@ -91,7 +91,7 @@ def facts(quantity: Quantity) -> Facts:
         "total": f"totals.{quantity.total}" if quantity.total else None,
         "source": quantity.source,
         "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in _needs(quantity.name)],
-        "preset": _preset(quantity),
+        "preset": smallest_preset(quantity),
     }
 
 
@@ -106,7 +106,7 @@ def _needs(name: str) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def _preset(quantity: Quantity) -> str:
+def smallest_preset(quantity: Quantity) -> str:
     """The smallest preset that has it."""
     presets = ("core", "paper", "estimates")
     return next((preset for preset in presets if quantity.name in resolve([preset])), "all")
