@@ -62,18 +62,22 @@ def defect(error: BaseException) -> str:
 class Notice:
     """Something accepted but worth knowing: a stable code, how often, in words, and the way out.
 
-    `examples` holds the first few indices concerned, in the file's own numbering from 0.
+    `examples` holds the first few concerned: indices in the file's own numbering from 0, or the labels of regions.
     """
 
     code: str
     count: int
     message: str
     hint: str | None = None
-    examples: tuple[int, ...] = ()
+    examples: tuple[int | str, ...] = ()
 
     @classmethod
     def at(cls, code: str, indices: Sequence[Any] | Any, message: str, hint: str | None = None) -> Notice:
         """A notice of what stands at these indices (an array will do); `[one|many]` in its words as there are many."""
-        count = len(indices)
-        some = tuple(int(index) for index in indices[:5])
-        return cls(code, count, agree(count, message), None if hint is None else agree(count, hint), some)
+        return cls.of(code, [int(index) for index in indices[:5]], message, hint, len(indices))
+
+    @classmethod
+    def of(cls, code: str, some: Sequence[int | str], message: str, hint: str | None, count: int) -> Notice:
+        """A notice of so many, the first few of which are known."""
+        words = None if hint is None else agree(count, hint)
+        return cls(code, count, agree(count, message), words, tuple(some[:5]))

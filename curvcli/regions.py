@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, compress
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from .census import census
 from .errors import InputError, LackingError, Notice
 from .groups import Groups, by_label
+from .loading.model import Labels
 from .surface import CutFrom, Surface
 from .topology import Index
 
@@ -30,10 +31,12 @@ class Regions:
     """A labelling of the faces.
 
     face: (F,) region of each face, -1 for none. names: of the regions, in ascending order of label or of first use.
+    unused: labels that only polygons carry of which no face is left.
     """
 
     face: Index
     names: tuple[str, ...]
+    unused: tuple[str, ...] = ()
 
     @property
     def count(self) -> int:
@@ -65,7 +68,7 @@ def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
         codes = _per_face(surface, records.codes, chosen)
         if codes.max() < 0:
             raise InputError(f"{chosen}: no face comes after such a record, expected at least one")
-        return _numbered(codes, records.names)
+        return _numbered(codes, records)
     if file is not None and chosen in file.polygon_properties:
         return _from_labels(surface, file.polygon_properties[chosen], f"face property {chosen}")
     if os.path.splitext(chosen)[1].lower() in FILES:
@@ -161,7 +164,7 @@ def findings(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
     np.add.at(pieces, groups.face[first], 1)
     pinched = census(cut, groups).nonmanifold_vertices > 0
     single = groups.faces.members() == 1
-    found = [
+    of_regions = [
         ("regions_in_pieces", pieces > 1, "[region is|regions are] not connected", _SLIPPED),
         ("regions_pinched", pinched, "[region touches itself|regions touch themselves] at a vertex", _SLIPPED),
         (
@@ -170,14 +173,17 @@ def findings(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
             "[region is|regions are] a single face",
             _SLIPPED,
         ),
-        (
-            "faces_without_region",
-            regions.face < 0,
-            "[face has|faces have] no region",
-            "no region's integrals count [it|them]",
-        ),
     ]
-    notices = [Notice.at(code, np.flatnonzero(mask), message, hint) for code, mask, message, hint in found]
+    names = [(code, tuple(compress(regions.names, mask)), message, hint) for code, mask, message, hint in of_regions]
+    dropped = "[label is|labels are] on dropped faces only"
+    names += [("labels_without_faces", regions.unused, dropped, "no region has [it|them]")]
+    notices = [Notice.of(code, some, message, hint, len(some)) for code, some, message, hint in names]
+    without = np.flatnonzero(regions.face < 0)
+    notices += [
+        Notice.at(
+            "faces_without_region", without, "[face has|faces have] no region", "no region's integrals count [it|them]"
+        )
+    ]
     return [notice for notice in notices if notice.count]
 
 
@@ -196,15 +202,17 @@ def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions
     face[per_face >= 0] = codes
     if not len(names):
         raise InputError(f"{source}: no face has a label, expected at least one that is not negative")
-    return Regions(face, tuple(str(name) for name in names))
+    unused = np.setdiff1d(whole[whole >= 0], names)
+    return Regions(face, tuple(map(str, names.tolist())), tuple(map(str, unused.tolist())))
 
 
-def _numbered(codes: NDArray[Any], names: tuple[str, ...]) -> Regions:
+def _numbered(codes: NDArray[Any], records: Labels) -> Regions:
     """Only the names that some face carries."""
     used = np.unique(codes[codes >= 0])
-    new = np.full(len(names) + 1, -1, np.int32)
+    new = np.full(len(records.names) + 1, -1, np.int32)
     new[used] = np.arange(len(used))
-    return Regions(new[codes], tuple(names[i] for i in used))
+    unused = np.setdiff1d(records.codes[records.codes >= 0], used)
+    return Regions(new[codes], *(tuple(records.names[i] for i in some) for some in (used, unused)))
 
 
 def _per_face(surface: Surface, labels: NDArray[Any], source: str) -> NDArray[Any]:

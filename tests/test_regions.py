@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -143,7 +144,7 @@ def test_one_label_moved(seed: int) -> None:
     result = analyse(body, labels)
     assert codes(result)["regions_in_pieces"] == 1
     (notice,) = [notice for notice in result.notices if notice.code == "regions_in_pieces"]
-    assert notice.examples == (labels[face],)
+    assert notice.examples == (str(labels[face]),)
     assert result.passed
 
 
@@ -238,3 +239,22 @@ def test_regions_are_oriented_as_the_whole_is(first: int, orient: Any) -> None:
         for key in ("H_theta", "H_sin", "A_vec"):
             wanted = side * np.array(known["totals"][key])
             np.testing.assert_allclose(region["totals"][key], wanted, rtol=1e-12, atol=1e-13, err_msg=key)
+
+
+def test_what_is_said_of_regions_names_their_labels() -> None:
+    body, labels = halves()
+    deep = np.flatnonzero([len(np.unique(labels[row])) == 1 for row in touching(body)])
+    labels[deep[0]] = 1 - labels[deep[0]]
+    result = analyse(body, labels * 100 + 8)
+    (notice,) = [notice for notice in result.notices if notice.code == "regions_in_pieces"]
+    assert notice.examples == (str(labels[deep[0]] * 100 + 8),)
+
+
+def test_labels_of_dropped_faces_alone(tmp_path: Path) -> None:
+    """A face with a repeated corner is dropped, and with it the one label or group that it had."""
+    (tmp_path / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\ng whole\nf 1 2 3\ng lost\nf 1 2 2\ng empty\n")
+    for regions, label in (("groups", "lost"), (np.array([1, 2]), "2")):
+        result = curvcli.analyze(tmp_path / "m.obj", regions=regions)
+        (notice,) = [notice for notice in result.notices if notice.code == "labels_without_faces"]
+        assert (notice.count, notice.examples) == (1, (label,))
+        assert len(result.report()["regions"]) == 1

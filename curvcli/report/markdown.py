@@ -71,7 +71,7 @@ def _statement(name: str) -> str:
 
 def _warnings(report: Report) -> Iterable[str]:
     for remark in report.warnings:
-        first = f" (first: {', '.join(map(str, remark.examples[:3]))})" if remark.examples else ""
+        first = f" (first: {_text(', '.join(map(str, remark.examples[:3])))})" if remark.examples else ""
         hint = f"; {_text(remark.hint)}" if remark.hint else ""
         yield f"* **{remark.code}**: {remark.count:,} {_text(remark.message)}{first}{hint}"
 

@@ -117,7 +117,7 @@ class Remark(msgspec.Struct):
     count: int
     message: str
     hint: str | None
-    examples: list[int]
+    examples: list[int | str]
 
 
 def remarks(notices: Iterable[Notice]) -> list[Remark]:

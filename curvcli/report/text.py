@@ -35,7 +35,7 @@ def show(analysis: Analysis, verbose: int = 0) -> None:
     )
     for remark in report.warnings:
         hint = f"; {remark.hint}" if remark.hint else ""
-        first = f" (first: {', '.join(map(str, remark.examples[:3]))})" if remark.examples else ""
+        first = f" (first: {escape(', '.join(map(str, remark.examples[:3])))})" if remark.examples else ""
         console.print(
             f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}{first}{escape(hint)}",
             soft_wrap=not console.is_terminal,
