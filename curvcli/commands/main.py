@@ -56,6 +56,15 @@ class LazyGroup(click.Group):
             with _aborting():
                 return super().invoke(ctx)
         except (click.UsageError, UsageError) as error:
+            name = ctx.invoked_subcommand
+            if (
+                isinstance(error, click.UsageError)
+                and error.ctx is None
+                and name
+                and (own := self.get_command(ctx, name))
+            ):
+                # The parser of click, which misses the value of an option, does not say whose option it is.
+                error.ctx = click.Context(own, parent=ctx, info_name=name)
             if META in ctx.meta:
                 raise blamed(ctx, error) from error
             raise

@@ -39,6 +39,12 @@ def test_usage(arguments: list[str], words: str, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("arguments", [["analyze", CUBE, "--mean"], ["check", CUBE, "-o"], ["batch", "x", "--jobs"]])
+def test_an_option_without_its_value(arguments: list[str], tmp_path: Path) -> None:
+    ended = curvcli(*arguments, folder=tmp_path)
+    assert (ended.code, ended.complaint.endswith(f"; `curvcli {arguments[0]} --help` tells more")) == (2, True)
+
+
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [
