@@ -51,7 +51,7 @@ KINDS: dict[str, tuple[bytes, tuple[str, ...], str]] = {
     "rational_weights": (TETRAHEDRON.replace(b"v 10 0 0", b"v 10 0 0 2"), (), "vertex with a rational weight `w`"),
     "extra_values": (TETRAHEDRON.replace(b"v 10 0 0", b"v 10 0 0 1 1"), (), "vertex with numbers that are neither"),
     "missing_endsolid": (TEXT_STL.replace(b"endsolid x\n", b""), ("--input-format", "stl"), "text that ends without"),
-    "wrong_suffix": (TEXT_STL, ("--input-format", "obj"), "file whose content is STL, not OBJ as its name says"),
+    "wrong_suffix": (TEXT_STL, ("--input-format", "obj"), "file whose content is STL, not OBJ as --input-format says"),
 }
 
 

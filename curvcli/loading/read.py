@@ -72,7 +72,7 @@ def _read(
     make: Callable[[MeshFile], Made],
     source: str | bytes | os.PathLike[Any] | BinaryIO,
     path: str,
-    wanted: str | None,
+    input_format: str | None,
     weld: str | float,
     max_faces: int | None,
     max_bytes: int | None,
@@ -80,6 +80,7 @@ def _read(
 ) -> Made:
     with ExitStack() as stack:
         raw: io.FileIO | bytes
+        wanted = input_format
         if isinstance(source, str | bytes | os.PathLike):
             raw = stack.enter_context(open_regular(source, max_bytes))
             wanted = wanted or format_of_name(path)
@@ -99,7 +100,7 @@ def _read(
             pieces = stack.enter_context(Pieces(inflate(hashed.rest(), max_bytes), hashed=False))
         if not pieces.size:
             raise InputError("no data found, a mesh expected")
-        kind, notices = recognise(pieces, wanted)
+        kind, notices = recognise(pieces, wanted, by_name=input_format is None)
 
         def content() -> Made:
             mesh = _parse(pieces, kind, weld, max_faces, normals)

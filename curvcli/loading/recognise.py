@@ -53,10 +53,11 @@ def format_of_name(path: str) -> str:
     )
 
 
-def recognise(pieces: Pieces, wanted: str | None) -> tuple[str, tuple[Notice, ...]]:
+def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple[str, tuple[Notice, ...]]:
     """The format of the content, and a notice where it is not the wanted one.
 
-    wanted: what the name says, None if it says nothing. Errors: InputError for content that cannot be recognised.
+    wanted: what the name says, or `--input-format` if not by_name, None if nothing does.
+    Errors: InputError for content that cannot be recognised.
     """
     start = pieces.ahead()
     if not is_binary_stl(start, pieces.size):  # its first 80 bytes are free
@@ -70,8 +71,9 @@ def recognise(pieces: Pieces, wanted: str | None) -> tuple[str, tuple[Notice, ..
         return wanted, ()
     if wanted is None:
         return found, ()
-    message = f"file whose content is {found.upper()}, not {wanted.upper()} as its name says, and read as such"
-    return found, (Notice("wrong_suffix", 1, message, f"rename it to .{found}"),)
+    said, way_out = ("its name", f"rename it to .{found}") if by_name else ("--input-format", f"--input-format {found}")
+    message = f"file whose content is {found.upper()}, not {wanted.upper()} as {said} says, and read as such"
+    return found, (Notice("wrong_suffix", 1, message, way_out),)
 
 
 def _refuse_what_is_known(data: bytes) -> None:

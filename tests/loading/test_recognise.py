@@ -40,6 +40,12 @@ def test_streams(kind: str, packed: bool) -> None:
     assert refused(io.BytesIO(b"")).startswith("-: no data found")
 
 
+def test_a_stream_has_no_name_to_be_wrong() -> None:
+    (notice,) = read_mesh_file(io.BytesIO(CONTENT["obj"]), input_format="ply").notices
+    assert "not PLY as --input-format says" in notice.message
+    assert notice.hint == "--input-format obj"
+
+
 @pytest.mark.parametrize("told", ["obj", "ply", "stl"])
 @pytest.mark.parametrize("kind", ["obj", "ply", "stl", "ascii"])
 def test_content_that_is_not_what_the_suffix_says(tmp_path: Path, told: str, kind: str) -> None:
