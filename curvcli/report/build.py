@@ -30,6 +30,7 @@ from .model import (
     Topology,
     input_of,
     remarks,
+    vector,
 )
 from .statistics import ColumnStatistics, statistics
 
@@ -108,7 +109,7 @@ def loops(analysis: Analysis) -> list[dict[str, Any]]:
     }
     for stem in ("vector_area", "force", "torque"):
         axes = [columns.pop(f"{stem}_{axis}") for axis in "xyz"]
-        columns[stem] = [list(vector) for vector in zip(*axes, strict=True)]
+        columns[stem] = [vector(each) for each in zip(*axes, strict=True)]
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
@@ -186,9 +187,4 @@ def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
 
 def _plain(values: Any) -> list[Any]:
     """Lists for JSON, with None for what is undefined: a number that is none, a vector without a component."""
-    return [_vector(row) if isinstance(row, list) else or_none(row) for row in values.tolist()]
-
-
-def _vector(row: list[float]) -> list[float | None] | None:
-    shown = [or_none(x) for x in row]
-    return None if all(x is None for x in shown) else shown
+    return [vector(map(or_none, row)) if isinstance(row, list) else or_none(row) for row in values.tolist()]

@@ -12,9 +12,9 @@ from ..curves.identities import Identity
 from ..curves.measure import CurveMeasures
 from ..finite import or_none
 from ..loading.model import Labels
-from .model import CheckRow, Input, Remark, input_of, remarks
+from .model import CheckRow, Input, Remark, input_of, remarks, vector
 
-Vector = list[float | None]
+Vector = list[float | None] | None
 
 # Identities are listed curve by curve up to this many curves; beyond, one line each and those that fail.
 LISTED_CURVES = 100
@@ -87,7 +87,7 @@ def rows(measures: CurveMeasures) -> list[CurveRow]:
     """One row per curve."""
     columns = {key: _values(column) for key, column in measures.totals.items()}
     for stem in ("tangent_change", "vector_area", "force", "torque"):
-        columns[stem] = [list(each) for each in zip(*(columns[f"{stem}_{axis}"] for axis in "xyz"), strict=True)]
+        columns[stem] = [vector(each) for each in zip(*(columns[f"{stem}_{axis}"] for axis in "xyz"), strict=True)]
     ordered = [columns[key] for key in CurveRow.__struct_fields__]
     return [CurveRow(*row) for row in zip(*ordered, strict=True)]
 

@@ -24,6 +24,12 @@ Coefficients = Annotated[list[float | None], msgspec.Meta(min_length=POWERS, max
 CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals", "noise")
 
 
+def vector(parts: Iterable[float | None]) -> list[float | None] | None:
+    """A vector by its components, null where it has none."""
+    listed = list(parts)
+    return None if all(part is None for part in listed) else listed
+
+
 class Input(msgspec.Struct):
     """Where the mesh came from; null for arrays made in memory."""
 
