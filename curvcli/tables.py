@@ -23,16 +23,18 @@ ROWS_IN_A_FRAME = 1 << 18
 
 
 def vertex_properties(analysis: Analysis) -> Table:
-    """The computed vertex columns, vectors by component; masked or NaN where undefined."""
+    """The computed vertex columns, vectors by component; masked, NaN or -1 where undefined, as in merged rows."""
     surface = analysis.surface
     loose = ~surface.referenced
+    welded = surface.file.welded_to if surface.file is not None else None
     table: Table = {}
     for name in analysis.chosen:
         quantity = passes.quantity(name)
         if quantity.on != "vertex":
             continue
         if quantity.labels:
-            table[name] = Labels(analysis.columns[name], quantity.labels)
+            codes = analysis.columns[name]
+            table[name] = Labels(codes if welded is None else np.where(welded < 0, codes, -1), quantity.labels)
             continue
         shown = analysis.column(name)
         if quantity.kind == "count":

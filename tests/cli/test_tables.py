@@ -199,3 +199,15 @@ def test_one_mesh_after_the_other(within: Run, tmp_path: Path) -> None:
     assert [len(read(Path(f"{mesh.stem}-l.csv"))["loop"]) for mesh in meshes] == [2, 1]
     again = within("analyze", *meshes, "-q", "--table", "loops={stem}-l.csv")
     assert (again.code, "exist" in again.complaint) == (4, True)
+
+
+def test_the_cells_of_a_merged_row_are_empty(within: Run) -> None:
+    """All but its index, its position and the row that holds its values; a vertex without a face is another thing."""
+    points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 5 5 5\n"
+    Path("seam.obj").write_text(f"{points}f 1 2 3\nf 3 4 5\n")
+    wrote(within("analyze", "seam.obj", "-q", "--weld", "exact", *(f"--output=t{suffix}" for suffix in (*SUFFIXES, ".ply"))))
+    for suffix in SUFFIXES:
+        table = read(Path(f"t{suffix}"))
+        assert {key for key, column in table.items() if column[3] is not None} == {"vertex", *"xyz", "welded_to"}
+        assert table["status"] == ["boundary"] * 3 + [None, "boundary", "unreferenced"]
+    assert b"255 none" in Path("t.ply").read_bytes()
