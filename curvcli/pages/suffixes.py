@@ -7,7 +7,7 @@ from ..output.formats import FORMATS
 _HOLDS = {
     "table": "rows and columns",
     "mesh": "the surface with its columns",
-    "triangles": "the surface alone",
+    "triangles": "the surface alone, of `curvcli sample` only",
     "report": "the report",
     "page": "the report, to be read",
     "picture": "a picture",
