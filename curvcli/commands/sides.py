@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..errors import UsageError
+from ..errors import InputError, UsageError
 from ..loading.limits import parse_weld
 from .progress import phase
 
@@ -107,6 +107,8 @@ def analysed_side(
     settings = dict(conventions)
     names = settings.pop("passes")
     with phase(f"reading {path}", quiet):
+        if path != "-" and limits["input_format"] is None:
+            _check_suffix(path)
         source = sys.stdin.buffer if path == "-" else path
         asked = {key: settings[key] for key in ("weld", "orient", "normals") if key in settings}
         surface = load(source, **asked, **limits)
@@ -116,6 +118,18 @@ def analysed_side(
     sha256 = surface.file.sha256 if surface.file is not None else None
     cells = {name: _plain(column) for name, column in vertex_table(analysis).items() if name != "vertex"}
     return Read(Side(path, "mesh", sha256), report, cells), analysis
+
+
+def _check_suffix(path: str) -> None:
+    """Errors: InputError for a suffix that neither meshes nor what else is compared have, with all of them."""
+    from ..loading.recognise import format_of_name
+    from ..loading.stored import SUFFIXES
+
+    try:
+        format_of_name(path)
+    except InputError as error:
+        stored = ", ".join((".json", *SUFFIXES))
+        raise InputError(f"{error.problem}, or {stored}", path=path, hint=error.hint) from None
 
 
 def _plain(column: Any) -> Any:
