@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import CurvcliError, LackingError, UsageError
+from ..errors import CurvcliError, LackingError, OutputError, UsageError
 from ..exits import FAILED_CHECK, OK, exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
 from ..memory import ran_out
@@ -110,6 +111,8 @@ class Run:
         kinds = [table_option(table, TABLES) for table in tables]
         self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
         self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]
+        check_apart(meshes, self.paths)
+        check_apart(meshes, [[path for _, path in each] for each in self.tables])
         kinds_of_output: tuple[Kind, ...] = ("table", "mesh", "report", "page", "picture")
         formats = [
             format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
@@ -226,6 +229,17 @@ class Run:
 
             show(analysis, self.verbose)
         return None
+
+
+def check_apart(meshes: Sequence[str], paths: Sequence[Sequence[str]]) -> None:
+    """Errors: OutputError where `{stem}` gives two meshes one output."""
+    taken: dict[str, int] = {}
+    for index, each in enumerate(paths):
+        for path in each:
+            other = taken.setdefault(path, index)
+            if path != "-" and other != index:
+                both = f"{meshes[other]} and {meshes[index]}"
+                raise OutputError(f"{path}: {both} would share this output; `curvcli batch` keeps their folders apart")
 
 
 def expand(output: str, mesh: str, meshes: int) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import CUBE, DISK, MOBIUS, command, curvcli, environment, wrote
+from tests.cli.program import CUBE, DISK, MOBIUS, ROOT, command, curvcli, environment, wrote
 
 
 @pytest.mark.parametrize(
@@ -37,6 +37,34 @@ def test_usage(arguments: list[str], words: str, tmp_path: Path) -> None:
     assert ended.code == 2
     assert words in ended.complaint
     assert list(tmp_path.iterdir()) == []
+
+
+def test_two_meshes_of_one_name(tmp_path: Path) -> None:
+    """{stem} cannot tell them apart; batch can."""
+    for folder in ("xx", "yy"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "a.obj").write_bytes(Path(CUBE).read_bytes())
+    for option in (("-o", "{stem}.csv"), ("--table", "edges={stem}.csv")):
+        ended = curvcli("analyze", "xx/a.obj", "yy/a.obj", *option, folder=tmp_path)
+        assert ended.code == 4
+        assert ended.complaint.startswith("a.csv: xx/a.obj and yy/a.obj would share this output; `curvcli batch` ")
+    assert not (tmp_path / "a.csv").exists()
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".ply", ".stl", ".json", ".md"])
+def test_the_page_says_what_analyze_does_not_write(suffix: str, tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
+    (row,) = [line for line in page.splitlines() if line.startswith(f"| `{suffix}` |")]
+    ended = curvcli("analyze", CUBE, "-q", "-o", f"t{suffix}", folder=tmp_path)
+    assert (ended.code == 0) == ("`curvcli sample` only" not in row)
+
+
+def test_what_can_be_compared_is_listed(tmp_path: Path) -> None:
+    (tmp_path / "t.npz").write_bytes(b"")
+    ended = curvcli("compare", CUBE, "t.npz", folder=tmp_path)
+    assert ended.code == 3
+    assert ended.complaint.startswith("t.npz: suffix `.npz` found, .obj, .ply, .stl expected")
+    assert ", or .json, .csv, .tsv, .parquet; --input-format" in ended.complaint
 
 
 @pytest.mark.parametrize("arguments", [["analyze", CUBE, "--mean"], ["check", CUBE, "-o"], ["batch", "x", "--jobs"]])

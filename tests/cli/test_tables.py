@@ -205,7 +205,11 @@ def test_the_cells_of_a_merged_row_are_empty(within: Run) -> None:
     """All but its index, its position and the row that holds its values; a vertex without a face is another thing."""
     points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 5 5 5\n"
     Path("seam.obj").write_text(f"{points}f 1 2 3\nf 3 4 5\n")
-    wrote(within("analyze", "seam.obj", "-q", "--weld", "exact", *(f"--output=t{suffix}" for suffix in (*SUFFIXES, ".ply"))))
+    wrote(
+        within(
+            "analyze", "seam.obj", "-q", "--weld", "exact", *(f"--output=t{suffix}" for suffix in (*SUFFIXES, ".ply"))
+        )
+    )
     for suffix in SUFFIXES:
         table = read(Path(f"t{suffix}"))
         assert {key for key, column in table.items() if column[3] is not None} == {"vertex", *"xyz", "welded_to"}
