@@ -190,12 +190,15 @@ def findings(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
 def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions:
     if labels.ndim != 1 or labels.dtype.kind not in "iufb":
         raise InputError(f"{source}: shape {labels.shape} of {labels.dtype}, expected one whole number per face")
+    # Beyond, a type of fractions has no longer every whole number, and two labels would be one.
+    bits = np.finfo(labels.dtype).nmant + 1 if labels.dtype.kind == "f" else 63
     with np.errstate(invalid="ignore"):
         whole = labels.astype(np.int64)
-    wrong = np.flatnonzero(whole != labels)
+        wrong = np.flatnonzero((whole != labels) | (np.abs(labels) >= 2.0**bits))
     if len(wrong):
         first = int(wrong[0])
-        raise InputError(f"{source}: label {labels[first]} of face {first}, expected a whole number")
+        expected = f"a whole number below 2^{bits}" + (", or integers in a .npy file" if bits < 63 else "")
+        raise InputError(f"{source}: label {labels[first]} of face {first}, expected {expected}")
     per_face = _per_face(surface, whole, source)
     names, codes = np.unique(per_face[per_face >= 0], return_inverse=True)
     face = np.full(surface.n_faces, -1, np.int32)

@@ -191,7 +191,12 @@ def test_labels_need_not_be_consecutive() -> None:
         (np.array([0, 1, np.nan, 1]), "label nan of face 2"),
         (np.array([0, 1, 1, np.inf]), "label inf of face 3"),
         (np.array([0, 1e300, 1, 1]), "label 1e+300 of face 1"),
-        (np.array([0, 2**63, 1, 1], np.uint64), "label 9223372036854775808 of face 1"),
+        (
+            np.array([0, 2**63, 1, 1], np.uint64),
+            "9223372036854775808 of face 1, expected a whole number below 2^63",
+        ),
+        (np.array([0, 2.0**53, 1, 1]), "below 2^53, or integers in a .npy file"),
+        (np.array([0, 1, -(2.0**24), 1], np.float32), "below 2^24"),
         (np.array(["a", "b", "c", "d"]), "<U1"),
         (np.array([0, None, 1, 1], object), "object"),
         (np.ones(4, complex), "complex128"),
