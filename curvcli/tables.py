@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 
-import msgspec
 import numpy as np
 
 from .declare import Element, passes
 from .loading.model import Labels
-from .report.model import POWERS, Coefficients
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -114,6 +112,8 @@ def loop_table(analysis: Analysis) -> Table:
 
 def _piece_columns(pieces: list[Piece]) -> Table:
     """The values of pieces under the report's last keys; what there is and its types follow from what was computed."""
+    import msgspec
+
     table: Table = {}
     for section, first in (msgspec.structs.asdict(pieces[0]) if pieces else {}).items():
         each = [getattr(piece, section) for piece in pieces]
@@ -132,6 +132,8 @@ def _piece_columns(pieces: list[Piece]) -> Table:
 
 def _declared(name: str, values: list[Any], declared: Any) -> Table:
     """The column of a key of the report, or its columns, in the type that is declared of it."""
+    from .report.model import POWERS, Coefficients
+
     if declared in (bool, int):
         return {name: np.array(values, declared)}
     if int in get_args(declared):
