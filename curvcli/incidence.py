@@ -9,7 +9,7 @@ import numpy as np
 from .arrays import frozen
 from .fans import split_stars
 from .orientation import same_direction
-from .topology import Edges, Index, Mask, find_edges
+from .topology import Edges, Index, Mask, ends_of, find_edges, label_graph, renumber_by_lowest_member
 
 
 class Incidence:
@@ -86,6 +86,15 @@ class Incidence:
     def boundary_half_edges(self) -> Index:
         """Half-edges of the boundary edges, in edge order."""
         return self.edges.half_edges(np.flatnonzero(self.boundary_edges))
+
+    @cached_property
+    def boundary_loop_of(self) -> tuple[int, Index]:
+        """Number of boundary curves and the curve of each boundary half-edge, joined at shared vertices."""
+        half_edges = self.boundary_half_edges
+        tail, head = ends_of(self.faces, half_edges)
+        at, where = np.unique(np.concatenate([tail, head]), return_inverse=True)
+        count, label = label_graph(len(at), where[: len(tail)], where[len(tail) :])
+        return renumber_by_lowest_member(label[where[: len(tail)]], count) if len(at) else (0, half_edges)
 
     @cached_property
     @frozen

@@ -27,14 +27,7 @@ from .orientation import (
 from .plurals import counted
 from .slices import LONG
 from .threads import another_thread
-from .topology import (
-    Index,
-    Mask,
-    ends_of,
-    label_graph,
-    renumber_by_lowest_member,
-    vertex_components,
-)
+from .topology import Index, Mask, renumber_by_lowest_member, vertex_components
 
 if TYPE_CHECKING:
     from .loading.model import MeshFile
@@ -42,6 +35,9 @@ if TYPE_CHECKING:
 # Extents between these powers of two are computed in the file's own unit; outside, the eighth power of an edge, which
 # the cross ratio's square needs, would leave the range of doubles at edges 2⁵³ times shorter than the extent.
 _LARGEST_EXPONENT = 60
+
+# Up to so many vertices the pieces are told beside the stars: with more, the memory for both at once counts more.
+_FEW = 1 << 24
 
 STATUS = ("interior", "boundary", "degenerate", "nonmanifold", "unreferenced")
 
@@ -272,8 +268,9 @@ class Surface(Incidence):
 
     def work_out_topology(self) -> None:
         """Work out what every analysis asks of the edges."""
-        with another_thread(worth=self.referenced.size > LONG) as begun:
-            pieces = begun(lambda: self.components)  # which need the edges, and nothing else that is still to be known
+        # Who is referenced is all that the pieces need beside the edges.
+        with another_thread(worth=LONG < self.referenced.size <= _FEW) as begun:
+            pieces = begun(lambda: self.components)
             for known in ("interior", "degree"):
                 getattr(self, known)
             pieces()
@@ -293,12 +290,3 @@ class Surface(Incidence):
     def whole(self) -> Groups:
         """The whole surface as one group."""
         return whole(self)
-
-    @cached_property
-    def boundary_loop_of(self) -> tuple[int, Index]:
-        """Number of boundary curves and the curve of each boundary half-edge, joined at shared vertices."""
-        half_edges = self.boundary_half_edges
-        tail, head = ends_of(self.faces, half_edges)
-        at, where = np.unique(np.concatenate([tail, head]), return_inverse=True)
-        count, label = label_graph(len(at), where[: len(tail)], where[len(tail) :])
-        return renumber_by_lowest_member(label[where[: len(tail)]], count) if len(at) else (0, half_edges)
