@@ -49,9 +49,6 @@ def cross(a: Vector, b: Vector) -> list[Floats]:
 
 def dot(a: Vector, b: Vector) -> Floats:
     """a · b of vectors given by their components."""
-    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
-        summed: Floats = np.einsum("k...,k...->...", a, b)  # without intermediate arrays as long as the columns
-        return summed
     product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
     return product
 
