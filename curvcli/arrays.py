@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError
+from .slices import LONG, slices
+from .threads import each, for_each
 from .topology import Index
 
 _Found = TypeVar("_Found", bound=NDArray[Any])
@@ -23,7 +25,14 @@ def as_components(points: ArrayLike) -> NDArray[np.float64]:
     given = _as_array(points, "points", "numbers of shape (V, 3)")
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
         raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (V, 3)")
-    xyz = np.array(given.T, np.float64, order="C", copy=_copy(given))
+    if _kept(given.T, np.float64):
+        return given.T
+    xyz = np.empty(given.T.shape)
+
+    def convert(block: slice) -> None:
+        xyz[:, block] = given[block].T
+
+    for_each(slices(len(given), LONG), convert)
     xyz.setflags(write=False)
     return xyz
 
@@ -39,14 +48,14 @@ def _as_array(given: ArrayLike, what: str, expected: str) -> NDArray[Any]:
     return array
 
 
-def _copy(given: NDArray[Any]) -> bool | None:
-    """Copy what its owner may still change, and the rest only where type or layout ask for it."""
+def _kept(given: NDArray[Any], kind: type[np.generic]) -> bool:
+    """Whether an array can be kept as it is: of this type and layout, and nobody can change it any more."""
     owner: Any = given
     while isinstance(owner, np.ndarray):
         if owner.flags.writeable:
-            return True
+            return False
         owner = owner.base
-    return None if owner is None or isinstance(owner, bytes) else True
+    return (owner is None or isinstance(owner, bytes)) and given.dtype == kind and given.flags.c_contiguous
 
 
 def frozen(find: Callable[[Any], _Found]) -> Callable[[Any], _Found]:
@@ -79,10 +88,21 @@ def as_triangles(faces: ArrayLike, vertices: int) -> Index:
         raise InputError(f"faces have shape {given.shape} and type {given.dtype}, expected indices of shape (F, 3)")
     if not len(given):
         raise InputError("no faces: there is no surface to measure", hint="expected at least one face")
-    if given.min() < 0 or given.max() >= vertices:
+    kept = _kept(given, np.int32)
+    triangles = given if kept else np.empty(given.shape, np.int32)
+
+    def take_over(block: slice) -> bool:
+        """Whether the corners of these faces exist."""
+        part = given[block]
+        exist = bool(part.min() >= 0 and part.max() < vertices)
+        if exist and not kept:
+            triangles[block] = part
+        return exist
+
+    if not all(each(slices(len(given), LONG), take_over)):
         face, corner = (int(i) for i in np.argwhere((given < 0) | (given >= vertices))[0])
         raise InputError(
             f"corner {given[face, corner]} does not exist, expected a vertex index from 0 to {vertices - 1}",
             place=f"face {face}",
         )
-    return np.array(given, np.int32, order="C", copy=_copy(given))
+    return triangles

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-ENTRIES = 16384
+ENTRIES = 32768
 # Where a slice has few temporaries of 32 bits: between two operations a thread waits for the interpreter, which imports
 # in another thread let go of a thousand times a second at most.
 LONG = 131072

@@ -25,8 +25,8 @@ from .orientation import (
     uncancelled,
 )
 from .plurals import counted
-from .slices import LONG
-from .threads import another_thread
+from .slices import LONG, slices
+from .threads import another_thread, each
 from .topology import Index, Mask, renumber_by_lowest_member, vertex_components
 
 if TYPE_CHECKING:
@@ -54,6 +54,16 @@ _OF_EDGES = (
     "components",
     "whole",
 )
+
+
+def _with_repeated_corner(faces: Index) -> NDArray[np.intp]:
+    """The faces that have a corner twice."""
+
+    def find(block: slice) -> NDArray[np.intp]:
+        a, b, c = faces[block].T
+        return np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
+
+    return np.concatenate(list(each(slices(len(faces), LONG), find)))
 
 
 class CutFrom(NamedTuple):
@@ -90,8 +100,7 @@ class Surface(Incidence):
     ) -> None:
         self.xyz_given = as_components(points)
         triangles = as_triangles(faces, self.xyz_given.shape[1])
-        a, b, c = triangles.T
-        repeated = np.flatnonzero((a == b) | (b == c) | (c == a))
+        repeated = _with_repeated_corner(triangles)
         self.notices = list(notices)
         if len(repeated):
             came_from = np.arange(len(triangles), dtype=np.int32) if polygon is None else polygon

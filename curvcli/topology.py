@@ -16,6 +16,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from .slices import LONG, slices
+from .threads import for_each
 
 Index = NDArray[np.int32]
 Mask = NDArray[np.bool_]
@@ -41,28 +42,44 @@ class InnerEdges(NamedTuple):
 class Edges:
     """The edges of a face list, sorted by (a, b).
 
-    a, b: (E,) ends, a < b. valence: (E,) number of faces n_e. order: (3F,) half-edges grouped by edge.
-    start: (E + 1,) where each edge's half-edges begin in `order`. corner_count: (V,) number of faces at each vertex.
+    a, b: (E,) ends, a < b. order: (3F,) half-edges grouped by edge. corner_count: (V,) number of faces at each vertex.
+    starts: (E + 1,) where each edge's half-edges begin in `order`; None where every edge has two.
     """
 
     a: Index
     b: Index
-    valence: Index
     order: Index
-    start: Index
     corner_count: Index
+    starts: Index | None = None
 
     def __post_init__(self) -> None:
-        for array in (self.a, self.b, self.valence, self.order, self.start, self.corner_count):
-            array.setflags(write=False)
+        for array in (self.a, self.b, self.order, self.corner_count, self.starts):
+            if array is not None:
+                array.setflags(write=False)
 
     def __len__(self) -> int:
         return len(self.a)
 
     @cached_property
+    def start(self) -> Index:
+        """(E + 1,) where each edge's half-edges begin in `order`."""
+        start = np.arange(0, len(self.order) + 1, 2, dtype=np.int32) if self.starts is None else self.starts
+        start.setflags(write=False)
+        return start
+
+    @cached_property
+    def valence(self) -> Index:
+        """(E,) number of faces n_e."""
+        if self.starts is None:
+            return np.broadcast_to(np.int32(2), len(self))  # without memory of its own
+        valence = np.diff(self.starts)
+        valence.setflags(write=False)
+        return valence
+
+    @cached_property
     def unpaired(self) -> NDArray[np.intp]:
         """The edges with another n_e than 2."""
-        edges = np.flatnonzero(self.valence != 2)
+        edges = np.zeros(0, np.intp) if self.starts is None else np.flatnonzero(self.valence != 2)
         edges.setflags(write=False)
         return edges
 
@@ -135,8 +152,7 @@ def find_edges(faces: Index, vertices: int) -> Edges:
     count = int(np.count_nonzero(first))
     if 2 * count == n and first[::2].all():  # as on closed surfaces
         low_end = np.repeat(np.arange(vertices, dtype=np.int32), np.diff(rows) // 2)
-        valence, start = np.full(count, 2, np.int32), np.arange(0, n + 1, 2, dtype=np.int32)
-        return Edges(low_end, high[::2].copy(), valence, order, start, corner_count)
+        return Edges(low_end, high[::2].copy(), order, corner_count)
     low_end, high_end = np.empty(count, np.int32), np.empty(count, np.int32)
     start = np.full(count + 1, n, np.int32)
     done = 0
@@ -147,19 +163,24 @@ def find_edges(faces: Index, vertices: int) -> Edges:
         low = np.repeat(np.arange(block.start, block.stop, dtype=np.int32), np.diff(rows[block.start : block.stop + 1]))
         low_end[new], high_end[new], start[new] = low.take(each), high[begin:end].take(each), each + begin
         done = new.stop
-    return Edges(low_end, high_end, np.diff(start), order, start, corner_count)
+    return Edges(low_end, high_end, order, corner_count, start)
 
 
 def _by_high(faces: Index, vertices: int) -> Any:
     """The half-edges sorted by their higher end: a sparse matrix of lower ends, a row for each half-edge."""
     n = 3 * len(faces)
-    low, high = np.empty(n, np.int32), np.empty(n, np.int32)
-    for block in slices(len(faces), LONG):
+    low, high, each = np.empty(n, np.int32), np.empty(n, np.int32), np.empty(n + 1, np.int32)
+    each[n] = n
+
+    def sort_ends(block: slice) -> None:
         tail, head = _ends(faces[block])
         half_edges = slice(3 * block.start, 3 * block.stop)
         np.minimum(tail, head, out=low[half_edges])
         np.maximum(tail, head, out=high[half_edges])
-    return csr_array((low, high, np.arange(n + 1, dtype=np.int32)), shape=(n, vertices)).tocsc()
+        each[half_edges] = np.arange(half_edges.start, half_edges.stop, dtype=np.int32)
+
+    for_each(slices(len(faces), LONG), sort_ends)
+    return csr_array((low, high, each), shape=(n, vertices)).tocsc()
 
 
 def find_twins(edges: Edges) -> Index:

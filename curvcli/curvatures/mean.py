@@ -123,7 +123,8 @@ def pointed(surface: Surface, length: Column, area: Column) -> Flags:
 )
 def h_signed(surface: Surface, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
     """The mean curvature H = κ₁ + κ₂ with its sign: +2/r on a sphere of radius r seen from outside."""
-    signed = np.where(dot(H_vec, star_vector) < 0, h, 0.0 - h)
+    signed = 0.0 - h
+    np.copyto(signed, h, where=dot(H_vec, star_vector) < 0)
     return null_where(surface.without_orientation, signed)
 
 
