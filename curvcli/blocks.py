@@ -191,7 +191,7 @@ class StarSums:
     angle_sum: Floats
     area: Floats
     vector: Floats
-    gradient: Floats
+    curvature: Floats
     extent: Floats
     face_area: Floats
     degenerate_face: Mask
@@ -199,20 +199,21 @@ class StarSums:
 
 
 def star_sums(surface: Surface) -> StarSums:
-    """Angle sums, areas, vector areas, area gradients and extents of all stars in one blocked sweep.
+    """Angle sums, areas, vector areas, curvature vectors and extents of all stars in one blocked sweep.
 
-    Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The gradient
-    of a triangle's area with respect to a corner is half the opposite edge turned within its plane, ½ ν × d.
+    Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The curvature
+    vector is minus the gradient of the star's area; the gradient of a triangle's area with respect to a corner is half
+    the opposite edge turned within its plane, ½ ν × d.
     """
     sums = _sweep(surface.xyz, surface.faces, surface.corner_sign)
-    _resum_large_stars(surface, sums.angle_sum, sums.area, *sums.vector, *sums.gradient)
+    _resum_large_stars(surface, sums.angle_sum, sums.area, *sums.vector, *sums.curvature)
     return sums
 
 
 def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     n, n_faces = xyz.shape[1], len(faces)
     angle, area, extents = np.zeros(n), np.zeros(n), np.zeros(n)
-    vector, gradient = np.zeros((3, n)), np.zeros((3, n))
+    vector, curvature = np.zeros((3, n)), np.zeros((3, n))
     face_area = np.empty(n_faces)
     degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
 
@@ -239,15 +240,15 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
                 third = t.normal[k] / 6
                 for j, corner in enumerate(t.corners):
                     np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
-                np.add.at(gradient[k], t.corners[0], at_0[k])
-                np.subtract.at(gradient[k], t.corners[1], at_0[k] + at_2[k])
-                np.add.at(gradient[k], t.corners[2], at_2[k])
+                np.subtract.at(curvature[k], t.corners[0], at_0[k])
+                np.add.at(curvature[k], t.corners[1], at_0[k] + at_2[k])
+                np.subtract.at(curvature[k], t.corners[2], at_2[k])
             if waiting is not None:
                 add_angles(*waiting)
             waiting = t.corners, angles
         if waiting is not None:
             add_angles(*waiting)
-    return StarSums(angle, area, vector, gradient, extents, face_area, degenerate, coincident)
+    return StarSums(angle, area, vector, curvature, extents, face_area, degenerate, coincident)
 
 
 def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:
@@ -260,7 +261,7 @@ def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:
 def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
     """Sum large stars again in pairs: one after the other, thousands of faces would cost the last digits.
 
-    sums: rows of angles, areas, vector areas and gradients.
+    sums: rows of angles, areas, vector areas and curvature vectors.
     """
     large = surface.corner_count > LARGE_STAR
     if not large.any():
@@ -272,11 +273,11 @@ def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
         sign = None if surface.corner_sign is None else surface.corner_sign[chosen[block]]
         t = triangles(surface.xyz, face)
         at_0, at_2 = _gradient_terms(t)
-        gradients = at_0, [-x - y for x, y in zip(at_0, at_2, strict=True)], at_2
+        curvatures = [-x for x in at_0], [x + y for x, y in zip(at_0, at_2, strict=True)], [-x for x in at_2]
         for k, corner in enumerate(t.corners):
             kept = large[corner]
             thirds = [x / 6 if sign is None else x / 6 * sign[:, k] for x in t.normal]
-            rows = [t.angle(k), t.twice_area / 6, *thirds, *gradients[k]]
+            rows = [t.angle(k), t.twice_area / 6, *thirds, *curvatures[k]]
             vertices.append(corner[kept])
             terms.append(np.stack(rows)[:, kept])
     vertex, each = np.concatenate(vertices), np.concatenate(terms, axis=1)

@@ -61,7 +61,8 @@ def _with_repeated_corner(faces: Index) -> NDArray[np.intp]:
 
     def find(block: slice) -> NDArray[np.intp]:
         a, b, c = faces[block].T
-        return np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
+        found: NDArray[np.intp] = np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
+        return found
 
     return np.concatenate(list(each(slices(len(faces), LONG), find)))
 

@@ -67,7 +67,7 @@ def test_degenerate_face_is_null() -> None:
 @pytest.mark.parametrize("value", [1e-12, np.nan])
 def test_disturbed_values_are_caught(value: float) -> None:
     surface = zoo("torus").surface()
-    columns = evaluate(surface, ["dirichlet", "dirichlet_gradient", "star_gradient"])
+    columns = evaluate(surface, ["dirichlet", "dirichlet_gradient", "star_curvature"])
     assert the_check(surface).status == "pass"
     for name, array in columns.items():
         disturbed = array.copy()

@@ -25,7 +25,7 @@ def dirichlet(
     dirichlet: Column,
     dirichlet_gradient: VectorColumn,
     face_area: Column,
-    star_gradient: VectorColumn,
+    star_curvature: VectorColumn,
     degenerate: Flags,
     dirichlet_terms: Column,
     dirichlet_gradient_terms: Column,
@@ -33,12 +33,12 @@ def dirichlet(
     """E(id) = area and ∇_p E(id) = ∇_p area: the identity is harmonic where the surface is discrete minimal."""
     value, expected = groups.faces.sum(dirichlet), groups.faces.sum(face_area)
     tolerance = rounding(surface, groups.faces.sum(dirichlet_terms))
-    gap = dirichlet_gradient - star_gradient
+    gap = dirichlet_gradient + star_curvature
     # Each gradient is a running sum over the star, so its bound grows with the number of faces there.
     allowed = (16 + surface.corner_count) * EPSILON * dirichlet_gradient_terms
     with np.errstate(divide="ignore", invalid="ignore"):
         strain = np.where(allowed > 0, np.sqrt(dot(gap, gap)) / allowed, np.nan)
-    lost = np.isnan(dirichlet_gradient).any(axis=0) | np.isnan(star_gradient).any(axis=0)
+    lost = np.isnan(dirichlet_gradient).any(axis=0) | np.isnan(star_curvature).any(axis=0)
     strain[lost & surface.referenced & ~degenerate] = np.inf
     worst = groups.vertices.max(strain)
 

@@ -37,7 +37,7 @@ def A(surface: Surface, star_area: Column) -> Column:
 )
 def A_vec(surface: Surface, star_vector: VectorColumn) -> VectorColumn:
     """Vector area of the vertex: the gradient of the volume; null on patches without an orientation."""
-    return null_where(surface.without_orientation | ~surface.referenced, star_vector)
+    return null_where(surface.without_orientation, star_vector)
 
 
 @curvature_pass(
@@ -49,9 +49,9 @@ def A_vec(surface: Surface, star_vector: VectorColumn) -> VectorColumn:
     boundary="one cotangent on a boundary edge",
     source="Sullivan, Discrete surfaces",
 )
-def area_gradient(surface: Surface, star_gradient: VectorColumn, degenerate: Flags) -> VectorColumn:
-    """Gradient of the area with respect to the vertex."""
-    return null_where(degenerate | ~surface.referenced, star_gradient)
+def area_gradient(star_curvature: VectorColumn) -> VectorColumn:
+    """Gradient of the area with respect to the vertex; null at corners of degenerate faces."""
+    return 0.0 - star_curvature
 
 
 @curvature_pass(
@@ -65,16 +65,16 @@ def area_gradient(surface: Surface, star_gradient: VectorColumn, degenerate: Fla
     boundary="same (a curvature measure): the edges inside the surface count, those of the boundary do not",
     source="Sullivan, Discrete surfaces",
 )
-def H_vec(surface: Surface, area_gradient: VectorColumn) -> VectorColumn:
+def H_vec(surface: Surface, star_curvature: VectorColumn) -> VectorColumn:
     """Mean curvature vector of the vertex, a measure; points inwards where the surface is convex."""
-    vector = -area_gradient
     half_edges = surface.boundary_half_edges
-    if len(half_edges):
-        half = conormals(surface, half_edges)
-        half *= 0.5
-        for end in ends_of(surface.faces, half_edges):
-            for component, part in zip(vector, half, strict=True):
-                np.add.at(component, end, part)
+    if not len(half_edges):
+        return star_curvature
+    vector, half = star_curvature.copy(), conormals(surface, half_edges)
+    half *= 0.5
+    for end in ends_of(surface.faces, half_edges):
+        for component, part in zip(vector, half, strict=True):
+            np.add.at(component, end, part)
     return vector
 
 

@@ -26,7 +26,7 @@ def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
         Quantity("angle_sum", public=False),
         Quantity("star_area", public=False, length_exponent=2),
         Quantity("star_vector", public=False, vector=True, length_exponent=2, parity="odd"),
-        Quantity("star_gradient", public=False, vector=True, length_exponent=1),
+        Quantity("star_curvature", public=False, vector=True, length_exponent=1),
         Quantity("star_extent", public=False, length_exponent=1),
         Quantity(
             "face_area", on="face", public=False, length_exponent=2, total="area", description="Area of the face."
@@ -37,15 +37,21 @@ def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
     )
 )
 def star_sums(surface: Surface) -> tuple[Column | Flags, ...]:
-    """Σθ, ⅓Σ area, ⅓Σ area ν with the star oriented, ∇_p area, Σ extents; face areas; where undefined."""
+    """Σθ, ⅓Σ area, ⅓Σ area ν with the star oriented, −∇_p area, Σ extents; face areas; where undefined.
+
+    Where no face is, the scalar sums are 0 and the vectors null; −∇_p area is null at corners of degenerate faces too.
+    """
     sums = sweep(surface)
     degenerate = np.zeros(surface.n_vertices, bool)
     degenerate[surface.faces[sums.degenerate_face].ravel()] = True
+    loose = np.flatnonzero(~surface.referenced)
+    sums.vector[:, loose] = sums.curvature[:, loose] = np.nan
+    sums.curvature[:, np.flatnonzero(degenerate)] = np.nan
     return (
         sums.angle_sum,
         sums.area,
         sums.vector,
-        sums.gradient,
+        sums.curvature,
         sums.extent,
         sums.face_area,
         sums.degenerate_face,
