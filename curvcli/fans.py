@@ -28,9 +28,9 @@ def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: boo
     tail = faces.ravel()
     for block in slices(len(tail), LONG):
         start[tail[block].astype(np.intp)] = np.arange(block.start, block.stop, dtype=np.int32)
-    last = np.flatnonzero(turn < 0)
-    clockwise_end = previous_corner(last)
-    start[tail[clockwise_end]] = clockwise_end
+    if len(edges.unpaired):
+        clockwise_end = previous_corner(np.flatnonzero(turn < 0))
+        start[tail[clockwise_end]] = clockwise_end
     large = np.zeros(vertices, bool)
     for block in slices(vertices, LONG):
         apart, longer = _walk(turn, start[block], corner_count[block])
