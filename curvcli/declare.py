@@ -28,10 +28,10 @@ Element = Literal["vertex", "edge", "face"]
 Kind = Literal["measure", "density", "angle", "length", "direction", "ratio", "count", "label", "flag"]
 Parity = Literal["even", "odd"]
 
-# Parameters that are no quantity: the surface itself, and the area that `--area` chooses.
-SURFACE, CELL_AREA = "surface", "cell_area"
+# Parameters that are no quantity: the surface itself, its masks of vertices, and the area that `--area` chooses.
+SURFACE, MASKS, CELL_AREA = "surface", ("interior", "boundary", "referenced", "without_orientation"), "cell_area"
 # The others are answered by `Settings`; what depends on the scale is named `NAME@SCALE` where there are several.
-NO_QUANTITIES = (SURFACE, *PARAMETERS)
+NO_QUANTITIES = (SURFACE, *MASKS, *PARAMETERS)
 AT_SCALE = "@"
 CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
 
@@ -88,12 +88,17 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Pass:
-    """A registered function with the quantities it provides and the names of what it needs."""
+    """A registered function with the quantities it provides and the names of what it needs.
+
+    pointwise: whether what it gives at a vertex follows from what its arguments say of it. They are columns and masks
+    of vertices then, what it gives are numbers and flags, and the function is called with some vertices at a time.
+    """
 
     name: str
     compute: Callable[..., Any]
     provides: tuple[Quantity, ...]
     needs: tuple[str, ...]
+    pointwise: bool = False
 
     def __reduce__(self) -> tuple[Callable[[str], Pass], tuple[str]]:
         """Processes that pass it on name it: its function stands in its module under the name of the pass."""
@@ -141,6 +146,13 @@ class Registry(Mapping[str, Pass]):
             if need not in self._providers and need not in (*NO_QUANTITIES, CELL_AREA):
                 near = get_close_matches(need, [*self._providers, *NO_QUANTITIES, CELL_AREA], 3)
                 raise UsageError(f"pass {new.name} needs {need}, which no pass provides; nearest: {', '.join(near)}")
+        apart = {need for need in new.needs if need == SURFACE or need in PARAMETERS}
+        apart |= {need for need in new.needs if need in self._providers and self.quantity(need).on != "vertex"}
+        if new.pointwise and apart:
+            raise UsageError(
+                f"pass {new.name} looks at one vertex at a time and needs {', '.join(sorted(apart))}, "
+                f"expected columns of vertices, {CELL_AREA}, {' or '.join(MASKS)}"
+            )
         names = [quantity.name for quantity in new.provides]
         for name in names:
             if name in self._providers or names.count(name) > 1:
@@ -186,11 +198,13 @@ def registered(name: str) -> Pass:
     return passes[name]
 
 
-def curvature_pass(provides: tuple[Quantity, ...] = (), **declaration: Any) -> Callable[[Callable[..., Any]], Pass]:
+def curvature_pass(
+    provides: tuple[Quantity, ...] = (), *, pointwise: bool = False, **declaration: Any
+) -> Callable[[Callable[..., Any]], Pass]:
     """Register a function as a pass.
 
     Without `provides`, the function's name is its one quantity and the keywords are the fields of `Quantity`; with it,
-    the function returns a tuple of arrays in that order.
+    the function returns a tuple of arrays in that order. `pointwise`: see `Pass`.
     """
 
     def register(function: Callable[..., Any]) -> Pass:
@@ -198,7 +212,7 @@ def curvature_pass(provides: tuple[Quantity, ...] = (), **declaration: Any) -> C
         text = inspect.cleandoc(function.__doc__ or "")
         quantities = provides or (Quantity(name, **declaration),)
         quantities = tuple(q if q.description else replace(q, description=text) for q in quantities)
-        new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters))
+        new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters), pointwise)
         passes.add(new)
         return new
 

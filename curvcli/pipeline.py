@@ -7,16 +7,20 @@ from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import cache
 from graphlib import TopologicalSorter
+from itertools import groupby
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .declare import AT_SCALE, CELL_AREA, CELL_AREAS, NO_QUANTITIES, SURFACE, Pass, Quantity, passes
+from .declare import AT_SCALE, CELL_AREA, CELL_AREAS, MASKS, NO_QUANTITIES, SURFACE, Pass, Quantity, passes
 from .errors import UsageError
 from .nearest import nearest
 from .neighbourhoods import forget
 from .settings import DEFAULTS, Settings
+from .slices import slices
+from .threads import for_each
 
 if TYPE_CHECKING:
     from .surface import Surface
@@ -29,6 +33,9 @@ CORE = (
     *("kappa_1", "kappa_2", "willmore", "willmore_hks"),
 )
 
+
+# Passes that look at one vertex at a time have so many of them at once.
+_VERTICES = 1 << 16
 
 # What noise of the coordinates makes of K and h.
 UNCERTAINTIES = ("K_sigma", "h_sigma")
@@ -98,10 +105,13 @@ def arguments(
 ) -> list[Any]:
     """What a pass is called with."""
     columns = iter(needs(one, area))
-    return [
-        surface if need == SURFACE else getattr(settings, need) if need in NO_QUANTITIES else have[next(columns)]
-        for need in one.needs
-    ]
+
+    def answer(need: str) -> Any:
+        if need not in NO_QUANTITIES:
+            return have[next(columns)]
+        return surface if need == SURFACE else getattr(surface if need in MASKS else settings, need)
+
+    return [answer(need) for need in one.needs]
 
 
 def schedule(names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Pass]:
@@ -115,7 +125,16 @@ def schedule(names: Iterable[str], area: str, have: Set[str] = frozenset()) -> l
             missing = [need for need in needs(one, area) if need not in have]
             graph[one.name] = {passes.provider(need).name for need in missing}
             todo += missing
-    return [passes[name] for name in TopologicalSorter(graph).static_order()]
+    sorter = TopologicalSorter(graph)
+    sorter.prepare()
+    order: list[Pass] = []
+    ready: list[Pass] = []
+    while sorter.is_active():
+        ready += map(passes.__getitem__, sorter.get_ready())
+        ready.sort(key=lambda one: one.pointwise)  # last, so that they come together
+        order.append(ready.pop(0))
+        sorter.done(order[-1].name)
+    return order
 
 
 def at_scales(names: Iterable[str], settings: Settings) -> list[str]:
@@ -182,16 +201,55 @@ def _evaluate(
 
     order = schedule([name for name in keep if name not in have], area, set(have))
     uses = Counter(need for one in order for need in needs(one, area))
-    for one in order:
-        found = one.compute(*arguments(one, surface, have, area, settings))
-        for quantity, array in zip(one.provides, found if len(one.provides) > 1 else (found,), strict=True):
+    for key, group in groupby(order, key=lambda one: one.pointwise or one.name):
+        run = list(group)
+        if key is True:
+            found = _at_vertices(run, surface, have, area)
+        else:
+            found = _named(run[0], arguments(run[0], surface, have, area, settings))
+        for array in found.values():
             array.setflags(write=False)
-            have[quantity.name] = array
-        for need in [*needs(one, area), *(quantity.name for quantity in one.provides)]:
-            uses[need] -= need in needs(one, area)
-            if uses[need] <= 0 and need not in keep:
-                have.pop(need, None)
+        have |= found
+        for one in run:
+            for need in [*needs(one, area), *(quantity.name for quantity in one.provides)]:
+                uses[need] -= need in needs(one, area)
+                if uses[need] <= 0 and need not in keep:
+                    have.pop(need, None)
     return have
+
+
+def _named(one: Pass, given: Iterable[Any]) -> dict[str, Array]:
+    """What a pass provides, by name."""
+    found = one.compute(*given)
+    names = [quantity.name for quantity in one.provides]
+    return dict(zip(names, found if len(names) > 1 else (found,), strict=True))
+
+
+def _at_vertices(run: Sequence[Pass], surface: Surface, have: Mapping[str, Array], area: str) -> dict[str, Array]:
+    """What passes provide that look at one vertex at a time, in blocks of vertices and two threads.
+
+    What one pass finds is still in the cache when the next one needs it.
+    """
+    n = surface.n_vertices
+    columns = {
+        quantity.name: np.empty((3, n) if quantity.vector else n, bool if quantity.kind == "flag" else np.float64)
+        for one in run
+        for quantity in one.provides
+    }
+    given = {name: have[name] for one in run for name in needs(one, area) if name not in columns}
+    masks = {name: getattr(surface, name) for one in run for name in one.needs if name in MASKS}
+
+    def fill(block: slice) -> None:
+        here = {name: column[..., block] for name, column in given.items()}
+        some: Any = SimpleNamespace(**{name: mask[block] for name, mask in masks.items()})
+        for one in run:
+            found = _named(one, arguments(one, some, here, area))
+            for name, part in found.items():
+                columns[name][..., block] = part
+            here |= found
+
+    for_each(slices(n, _VERTICES), fill)
+    return columns
 
 
 def presented(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:

@@ -78,6 +78,15 @@ def test_a_pass_cannot_need_itself() -> None:
             return selfish
 
 
+@pytest.mark.parametrize("need", ["surface", "scale", "theta", "face_area"])
+def test_what_looks_at_one_vertex_at_a_time_needs_columns_of_vertices(need: str) -> None:
+    space: dict[str, object] = {}
+    exec(f"def alone({need}, K): return K", space)
+    with pytest.raises(UsageError, match=f"pass alone looks at one vertex at a time and needs {need}, expected"):
+        curvature_pass(pointwise=True)(space["alone"])  # type: ignore[arg-type]
+    assert "alone" not in passes
+
+
 def test_a_column_is_provided_once() -> None:
     with pytest.raises(UsageError, match="pass K provides K, which exists already"):
 

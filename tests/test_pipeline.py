@@ -11,7 +11,7 @@ import pytest
 import curvcli
 from curvcli.declare import NO_QUANTITIES, passes
 from curvcli.errors import UsageError
-from curvcli.pipeline import CORE, ORDER, evaluate, resolve, schedule
+from curvcli.pipeline import CORE, ORDER, arguments, evaluate, needs, resolve, schedule
 from tests import meshes
 from tests.columns import PUBLIC
 
@@ -126,9 +126,30 @@ def test_the_bare_function_is_there() -> None:
     surface = meshes.tetrahedron().surface()
     full = evaluate(surface, ["H_vec", "star_vector", "star_area"])
     np.testing.assert_array_equal(
-        curvcli.passes.h.compute(surface, full["H_vec"], full["star_vector"], full["star_area"]),
+        curvcli.passes.h.compute(surface.interior, full["H_vec"], full["star_vector"], full["star_area"]),
         curvcli.passes.h(surface),
     )
+
+
+@pytest.mark.parametrize("name", [one.name for one in passes.values() if one.pointwise])
+def test_what_looks_at_one_vertex_at_a_time_says_the_same_of_some(name: str) -> None:
+    surface = meshes.zoo("with_flat_face").surface()
+    one, some = passes[name], np.random.default_rng(1).permutation(surface.n_vertices)[:7]
+    have = evaluate(surface, {*needs(one, "barycentric"), *(quantity.name for quantity in one.provides)})
+    given = arguments(one, surface, have)
+    assert all(column.shape[-1] == surface.n_vertices for column in given)
+    found = one.compute(*(column[..., some] for column in given))
+    for quantity, part in zip(one.provides, found if len(one.provides) > 1 else (found,), strict=True):
+        np.testing.assert_array_equal(part, have[quantity.name][..., some])
+
+
+def test_blocks_of_vertices_do_not_change_a_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    surface = meshes.zoo("cap").surface()
+    names = [quantity.name for quantity in passes.quantities("vertex")]
+    at_once = evaluate(surface, names)
+    monkeypatch.setattr("curvcli.pipeline._VERTICES", 5)
+    for name, column in evaluate(surface, names).items():
+        np.testing.assert_array_equal(column, at_once[name], err_msg=name)
 
 
 def test_the_cell_area_is_chosen() -> None:

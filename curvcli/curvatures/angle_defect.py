@@ -29,9 +29,9 @@ def general_defect(surface: Surface, angle_sum: Column, coincident: Flags) -> Co
     boundary="null, the defect is kappa_g there",
     source="Sullivan, Discrete surfaces",
 )
-def K(surface: Surface, general_defect: Column) -> Column:
+def K(boundary: Flags, general_defect: Column) -> Column:
     """Gauss curvature of the star: its angle defect, a measure in radians."""
-    return null_where(surface.boundary, general_defect)
+    return null_where(boundary, general_defect)
 
 
 @curvature_pass(
@@ -43,9 +43,9 @@ def K(surface: Surface, general_defect: Column) -> Column:
     boundary="the turning of the boundary at p, positive where the surface is convex in itself; null inside",
     source="Sullivan, Discrete surfaces",
 )
-def kappa_g(surface: Surface, general_defect: Column) -> Column:
+def kappa_g(boundary: Flags, general_defect: Column) -> Column:
     """Geodesic curvature of the boundary at the vertex: how far it turns, a measure in radians."""
-    return null_where(~surface.boundary, general_defect)
+    return null_where(~boundary, general_defect)
 
 
 @curvature_pass(

@@ -73,7 +73,7 @@ def K_ring(surface: Surface, ring_K: Column, ring_area: Column) -> Column:
 def h_ring(surface: Surface, ring_H_vec: VectorColumn, ring_vector: VectorColumn, ring_area: Column) -> Column:
     """Mean curvature κ₁ + κ₂ of the neighbourhood, positive where convex; null where |ΣA_vec| < 1e-12 ΣA."""
     length = np.sqrt(dot(ring_vector, ring_vector))
-    size = ratio(np.sqrt(dot(ring_H_vec, ring_H_vec)), length, pointed(surface, length, ring_area))
+    size = ratio(np.sqrt(dot(ring_H_vec, ring_H_vec)), length, pointed(surface.interior, length, ring_area))
     return null_where(surface.without_orientation, np.where(dot(ring_H_vec, ring_vector) < 0, size, 0.0 - size))
 
 
@@ -115,7 +115,7 @@ def ring_principal_curvatures(
     found = np.full((2, surface.n_vertices), np.nan)
     area, vector = total[0], total[1:4]
     length = np.sqrt(dot(vector, vector))
-    known = pointed(surface, length, area) & (area > 0) & ~surface.without_orientation
+    known = pointed(surface.interior, length, area) & (area > 0) & ~surface.without_orientation
     for block in slices(surface.n_vertices):
         with np.errstate(divide="ignore", invalid="ignore"):
             middle, half, _, _ = tangential(0.5 * total[4:, block] / area[block], vector[:, block] / length[block])

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ..declare import Column, curvature_pass
-from ..surface import Surface
+from ..declare import Column, Flags, curvature_pass
 from .star import ratio
 
 
@@ -16,7 +15,8 @@ from .star import ratio
     preserves="Σ K_density · area = ΣK inside",
     boundary="null",
     source="Sullivan, Discrete surfaces",
+    pointwise=True,
 )
-def K_density(surface: Surface, K: Column, cell_area: Column) -> Column:
+def K_density(interior: Flags, K: Column, cell_area: Column) -> Column:
     """Gauss curvature per area; exact in sum, but on irregular triangulations it does not converge pointwise."""
-    return ratio(K, cell_area, surface.interior)
+    return ratio(K, cell_area, interior)

@@ -54,7 +54,7 @@ def principal_directions(
     """
     tensor, size = star_tensors(surface, theta)
     frames = np.full((2, 3, surface.n_vertices), np.nan)
-    usable = pointed(surface, np.sqrt(dot(A_vec, A_vec)), star_area) & (star_area > 0)
+    usable = pointed(surface.interior, np.sqrt(dot(A_vec, A_vec)), star_area) & (star_area > 0)
 
     def turned(block: slice) -> None:
         frames[:, :, block] = _tangential(tensor[:, block], size[block], A_vec[:, block])

@@ -19,9 +19,9 @@ from .star import null_where, ratio
     boundary="same",
     source="Sullivan, Discrete surfaces",
 )
-def A(surface: Surface, star_area: Column) -> Column:
+def A(referenced: Flags, star_area: Column) -> Column:
     """Area of the vertex: a third of its star's."""
-    return null_where(~surface.referenced, star_area)
+    return null_where(~referenced, star_area)
 
 
 @curvature_pass(
@@ -35,9 +35,9 @@ def A(surface: Surface, star_area: Column) -> Column:
     boundary="same",
     source="Sullivan, Discrete surfaces",
 )
-def A_vec(surface: Surface, star_vector: VectorColumn) -> VectorColumn:
+def A_vec(without_orientation: Flags, star_vector: VectorColumn) -> VectorColumn:
     """Vector area of the vertex: the gradient of the volume; null on patches without an orientation."""
-    return null_where(surface.without_orientation, star_vector)
+    return null_where(without_orientation, star_vector)
 
 
 @curvature_pass(
@@ -96,16 +96,17 @@ def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
     preserves="the first variation: the fastest change of area, over that of volume, is |∇_p area| / |∇_p volume| = h",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
+    pointwise=True,
 )
-def h(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+def h(interior: Flags, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Mean curvature of the vertex without its sign; null where |A_vec| < 1e-12 A."""
     length = np.sqrt(dot(star_vector, star_vector))
-    return ratio(np.sqrt(dot(H_vec, H_vec)), length, pointed(surface, length, star_area))
+    return ratio(np.sqrt(dot(H_vec, H_vec)), length, pointed(interior, length, star_area))
 
 
-def pointed(surface: Surface, length: Column, area: Column) -> Flags:
-    """(V,) interior vertices where a vector area of this length has not lost its direction to rounding."""
-    mask: Flags = surface.interior & (length >= LOST * area)
+def pointed(interior: Flags, length: Column, area: Column) -> Flags:
+    """(n,) interior vertices where a vector area of this length has not lost its direction to rounding."""
+    mask: Flags = interior & (length >= LOST * area)
     return mask
 
 
@@ -120,12 +121,13 @@ def pointed(surface: Surface, length: Column, area: Column) -> Flags:
     preserves="see h",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
+    pointwise=True,
 )
-def h_signed(surface: Surface, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
+def h_signed(without_orientation: Flags, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
     """The mean curvature H = κ₁ + κ₂ with its sign: +2/r on a sphere of radius r seen from outside."""
     signed = 0.0 - h
     np.copyto(signed, h, where=dot(H_vec, star_vector) < 0)
-    return null_where(surface.without_orientation, signed)
+    return null_where(without_orientation, signed)
 
 
 @curvature_pass(
@@ -137,10 +139,11 @@ def h_signed(surface: Surface, h: Column, H_vec: VectorColumn, star_vector: Vect
     preserves="see H_vec and A",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces; Hsu, Kusner and Sullivan, Minimizing the squared mean curvature",
+    pointwise=True,
 )
-def h_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Column:
+def h_hks(interior: Flags, H_vec: VectorColumn, star_area: Column) -> Column:
     """Mean curvature vector per area."""
-    return ratio(np.sqrt(dot(H_vec, H_vec)), star_area, surface.interior)
+    return ratio(np.sqrt(dot(H_vec, H_vec)), star_area, interior)
 
 
 @curvature_pass(
@@ -154,20 +157,23 @@ def h_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Column:
     preserves="the part of **H**_p along **A**_p: how area changes when the vertex moves along its normal",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
+    pointwise=True,
 )
-def h_perp(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+def h_perp(
+    interior: Flags, without_orientation: Flags, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column
+) -> Column:
     """Mean curvature from the component of H_vec along A_vec, positive where convex."""
     square = dot(star_vector, star_vector)
-    perp = ratio(-dot(H_vec, star_vector), square, pointed(surface, np.sqrt(square), star_area))
-    return null_where(surface.without_orientation, perp)
+    perp = ratio(-dot(H_vec, star_vector), square, pointed(interior, np.sqrt(square), star_area))
+    return null_where(without_orientation, perp)
 
 
-@curvature_pass(public=False)
-def normal_ratio(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+@curvature_pass(public=False, pointwise=True)
+def normal_ratio(interior: Flags, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """−|**H**|²/(**H**·**A**) by the star's own orientation, also where the surface has none."""
     product, square, area_square = dot(H_vec, star_vector), dot(H_vec, H_vec), dot(star_vector, star_vector)
     kept = np.abs(product) >= LOST * np.sqrt(square * area_square)
-    quotient = ratio(square, np.abs(product), kept & pointed(surface, np.sqrt(area_square), star_area))
+    quotient = ratio(square, np.abs(product), kept & pointed(interior, np.sqrt(area_square), star_area))
     return np.where(product < 0, quotient, 0.0 - quotient)
 
 
@@ -182,7 +188,8 @@ def normal_ratio(surface: Surface, H_vec: VectorColumn, star_vector: VectorColum
     preserves="how area changes per volume when the vertex moves along **H**_p",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
+    pointwise=True,
 )
-def h_normal(surface: Surface, normal_ratio: Column) -> Column:
+def h_normal(without_orientation: Flags, normal_ratio: Column) -> Column:
     """Mean curvature when the vertex moves along H_vec, positive where convex; null where |H·A| < 1e-12 |H||A|."""
-    return null_where(surface.without_orientation, normal_ratio)
+    return null_where(without_orientation, normal_ratio)

@@ -33,7 +33,8 @@ _SHARED: dict[str, Any] = {
             "kappa_2", symbol="κ₂", formula="H/2 − √(H²/4 − K_density), H = h_signed", partner="kappa_1", **_SHARED
         ),
         Quantity("kappa_clamped", kind="flag", public=False),
-    )
+    ),
+    pointwise=True,
 )
 def principal_curvatures(h_signed: Column, K_density: Column) -> tuple[Column | Flags, ...]:
     """Principal curvatures, κ₁ ≥ κ₂; a negative radicand, where H² < 4K, is clamped at 0 and counted."""
@@ -55,6 +56,7 @@ def principal_curvatures(h_signed: Column, K_density: Column) -> tuple[Column | 
     preserves="invariant under scaling; +1 on a convex cap, 0 on a symmetric saddle, −1 in a cup",
     boundary="null",
     source="Sullivan, Curvatures of smooth surfaces; Koenderink and van Doorn, Surface shape and curvature scales",
+    pointwise=True,
 )
 def shape_index(kappa_1: Column, kappa_2: Column, cell_area: Column) -> Column:
     """Koenderink's shape index; null at umbilics and planes, where κ₁ − κ₂ is no more than the rounding of K makes."""
@@ -71,6 +73,7 @@ def shape_index(kappa_1: Column, kappa_2: Column, cell_area: Column) -> Column:
     preserves="even in the normal: defined where the surface has no orientation",
     boundary="null",
     source="Sullivan, Curvatures of smooth surfaces; Koenderink and van Doorn, Surface shape and curvature scales",
+    pointwise=True,
 )
 def curvedness(h: Column, K_density: Column) -> Column:
     """Koenderink's curvedness: how strongly the surface is bent, whichever way."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..blocks import dot
-from ..declare import Column, VectorColumn, curvature_pass
-from ..surface import Surface
+from ..declare import Column, Flags, VectorColumn, curvature_pass
 from .mean import pointed
 from .star import ratio
 
@@ -19,6 +18,7 @@ from .star import ratio
     preserves="Σ → 16π on spheres, 8π² on the Clifford torus; never below willmore_hks",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
+    pointwise=True,
 )
 def willmore(h: Column, star_area: Column) -> Column:
     """Willmore energy of the star from h, a measure without unit."""
@@ -33,10 +33,11 @@ def willmore(h: Column, star_area: Column) -> Column:
     preserves="Σ → 16π on spheres, 8π² on the Clifford torus",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces; Hsu, Kusner and Sullivan, Minimizing the squared mean curvature",
+    pointwise=True,
 )
-def willmore_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Column:
+def willmore_hks(interior: Flags, H_vec: VectorColumn, star_area: Column) -> Column:
     """Willmore energy of the star from the mean curvature vector and the area."""
-    return ratio(dot(H_vec, H_vec), star_area, surface.interior)
+    return ratio(dot(H_vec, H_vec), star_area, interior)
 
 
 @curvature_pass(
@@ -47,11 +48,12 @@ def willmore_hks(surface: Surface, H_vec: VectorColumn, star_area: Column) -> Co
     preserves="Σ → 16π on spheres, 8π² on the Clifford torus",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
+    pointwise=True,
 )
-def willmore_perp(surface: Surface, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
+def willmore_perp(interior: Flags, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Willmore energy of the star from h_perp; needs no global orientation."""
     square = dot(star_vector, star_vector)
-    perp = ratio(dot(H_vec, star_vector), square, pointed(surface, np.sqrt(square), star_area))
+    perp = ratio(dot(H_vec, star_vector), square, pointed(interior, np.sqrt(square), star_area))
     return perp * perp * star_area
 
 
@@ -63,6 +65,7 @@ def willmore_perp(surface: Surface, H_vec: VectorColumn, star_vector: VectorColu
     preserves="Σ → 16π on spheres, 8π² on the Clifford torus",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
+    pointwise=True,
 )
 def willmore_normal(normal_ratio: Column, star_area: Column) -> Column:
     """Willmore energy of the star from h_normal; needs no global orientation."""
