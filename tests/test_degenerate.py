@@ -228,5 +228,5 @@ def test_where_the_normals_are_at_right_angles(cosine: float, lost: bool) -> Non
     """h_normal is null where |**H**·**A**| < 1e-12 |**H**||**A**|, and has the sign of −**H**·**A** elsewhere."""
     surface, ones = octahedron().surface(), np.ones(6)
     H_vec, A_vec = np.outer([3.0, 0, 0], ones), np.outer([cosine, 1, 0], ones)
-    found = curvcli.passes.normal_ratio.compute(surface, H_vec, A_vec, ones)
+    found = curvcli.passes.normal_ratio.compute(surface.interior, H_vec, A_vec, ones)
     np.testing.assert_allclose(found, np.full(6, np.nan if lost else -3 / cosine), rtol=1e-9)
