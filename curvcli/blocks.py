@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +17,7 @@ from numpy.typing import NDArray
 
 from .compensated import cross_of_edges
 from .slices import ENTRIES, slices
-from .threads import another_thread
+from .threads import another_thread, for_each
 from .topology import Index, Mask
 
 if TYPE_CHECKING:
@@ -82,14 +84,15 @@ class Triangles:
         """Faces that have no angle at a corner: it lies on another one, or the product of its edges is lost."""
         return np.maximum(np.abs(self.cosines[corner]), self.twice_area) < _SMALL_SQUARE
 
-    def angle(self, corner: int) -> Floats:
+    def angle(self, corner: int, out: Floats | None = None) -> Floats:
         """The angle at a corner."""
-        angle: Floats = np.arctan2(self.twice_area, self.cosines[corner])
+        angle: Floats = np.arctan2(self.twice_area, self.cosines[corner], out=out)
         return angle
 
-    def angles(self) -> list[Floats]:
-        """The angle at each corner."""
-        return [self.angle(corner) for corner in range(3)]
+    def angles(self, room: Floats | None = None) -> list[Floats]:
+        """The angle at each corner; room: (3, n or more) where they may be put."""
+        n = len(self.twice_area)
+        return [self.angle(corner, None if room is None else room[corner, :n]) for corner in range(3)]
 
     def extent(self) -> Floats:
         """√(¾ Σ|e|²): no less than half the perimeter, nor more than 1.23 times that, for the root of one sum."""
@@ -212,8 +215,10 @@ def star_sums(surface: Surface) -> StarSums:
 
 def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     n, n_faces = xyz.shape[1], len(faces)
-    angle, area, extents = np.zeros(n), np.zeros(n), np.zeros(n)
-    vector, curvature = np.zeros((3, n)), np.zeros((3, n))
+    angle, area, extents = np.empty(n), np.empty(n), np.empty(n)
+    vector, curvature = np.empty((3, n)), np.empty((3, n))
+    # Touched for the first time in order and by two threads, memory costs less than where the sums happen to fall.
+    for_each([angle, area, extents, *vector, *curvature], lambda row: row.fill(0))
     face_area = np.empty(n_faces)
     degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
 
@@ -222,11 +227,13 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
             np.add.at(angle, corner, each)
 
     waiting = None
+    # Memory that another thread allocates is given back and touched anew with every block; two are in use at a time.
+    rooms = cycle(np.empty((2, 3, min(ENTRIES, n_faces))))
     # Arc tangents are nearly half of the work: those of a block are worked out beside all the rest of it.
     with another_thread(n_faces > ENTRIES) as begun:
         for block in slices(n_faces):
             t = triangles(xyz, faces[block])
-            angles = begun(t.angles)
+            angles = begun(partial(t.angles, next(rooms)))
             sixth, extent = t.twice_area / 6, t.extent()
             face_area[block] = t.twice_area / 2
             for corner in t.corners:
