@@ -106,3 +106,14 @@ def as_triangles(faces: ArrayLike, vertices: int) -> Index:
             place=f"face {face}",
         )
     return triangles
+
+
+def with_repeated_corner(triangles: Index) -> NDArray[np.intp]:
+    """The triangles that have a corner twice."""
+
+    def find(block: slice) -> NDArray[np.intp]:
+        a, b, c = triangles[block].T
+        found: NDArray[np.intp] = np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
+        return found
+
+    return np.concatenate(list(each(slices(len(triangles), LONG), find)))

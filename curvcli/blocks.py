@@ -89,10 +89,10 @@ class Triangles:
         angle: Floats = np.arctan2(self.twice_area, self.cosines[corner], out=out)
         return angle
 
-    def angles(self, room: Floats | None = None) -> list[Floats]:
-        """The angle at each corner; room: (3, n or more) where they may be put."""
+    def angles(self, room: Floats) -> list[Floats]:
+        """The angle at each corner; room: (3, n or more) where they are put."""
         n = len(self.twice_area)
-        return [self.angle(corner, None if room is None else room[corner, :n]) for corner in range(3)]
+        return [self.angle(corner, row[:n]) for corner, row in enumerate(room)]
 
     def extent(self) -> Floats:
         """√(¾ Σ|e|²): no less than half the perimeter, nor more than 1.23 times that, for the root of one sum."""

@@ -201,9 +201,9 @@ def _evaluate(
 
     order = schedule([name for name in keep if name not in have], area, set(have))
     uses = Counter(need for one in order for need in needs(one, area))
-    for key, group in groupby(order, key=lambda one: one.pointwise or one.name):
+    for _, group in groupby(order, key=lambda one: one.pointwise or one.name):
         run = list(group)
-        if key is True:
+        if run[0].pointwise:
             found = _at_vertices(run, surface, have, area)
         else:
             found = _named(run[0], arguments(run[0], surface, have, area, settings))

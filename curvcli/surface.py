@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arrays import as_components, as_triangles, frozen
+from .arrays import as_components, as_triangles, frozen, with_repeated_corner
 from .blocks import signed_volumes, volume_errors
 from .errors import InputError, Notice
 from .groups import Groups, by_label, whole
@@ -25,8 +25,8 @@ from .orientation import (
     uncancelled,
 )
 from .plurals import counted
-from .slices import LONG, slices
-from .threads import another_thread, each
+from .slices import LONG
+from .threads import another_thread
 from .topology import Index, Mask, renumber_by_lowest_member, vertex_components
 
 if TYPE_CHECKING:
@@ -54,17 +54,6 @@ _OF_EDGES = (
     "components",
     "whole",
 )
-
-
-def _with_repeated_corner(faces: Index) -> NDArray[np.intp]:
-    """The faces that have a corner twice."""
-
-    def find(block: slice) -> NDArray[np.intp]:
-        a, b, c = faces[block].T
-        found: NDArray[np.intp] = np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
-        return found
-
-    return np.concatenate(list(each(slices(len(faces), LONG), find)))
 
 
 class CutFrom(NamedTuple):
@@ -101,7 +90,7 @@ class Surface(Incidence):
     ) -> None:
         self.xyz_given = as_components(points)
         triangles = as_triangles(faces, self.xyz_given.shape[1])
-        repeated = _with_repeated_corner(triangles)
+        repeated = with_repeated_corner(triangles)
         self.notices = list(notices)
         if len(repeated):
             came_from = np.arange(len(triangles), dtype=np.int32) if polygon is None else polygon

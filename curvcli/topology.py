@@ -169,18 +169,18 @@ def find_edges(faces: Index, vertices: int) -> Edges:
 def _by_high(faces: Index, vertices: int) -> Any:
     """The half-edges sorted by their higher end: a sparse matrix of lower ends, a row for each half-edge."""
     n = 3 * len(faces)
-    low, high, each = np.empty(n, np.int32), np.empty(n, np.int32), np.empty(n + 1, np.int32)
-    each[n] = n
+    low, high, start = np.empty(n, np.int32), np.empty(n, np.int32), np.empty(n + 1, np.int32)
+    start[n] = n
 
     def sort_ends(block: slice) -> None:
         tail, head = _ends(faces[block])
         half_edges = slice(3 * block.start, 3 * block.stop)
         np.minimum(tail, head, out=low[half_edges])
         np.maximum(tail, head, out=high[half_edges])
-        each[half_edges] = np.arange(half_edges.start, half_edges.stop, dtype=np.int32)
+        start[half_edges] = np.arange(half_edges.start, half_edges.stop, dtype=np.int32)
 
     for_each(slices(len(faces), LONG), sort_ends)
-    return csr_array((low, high, each), shape=(n, vertices)).tocsc()
+    return csr_array((low, high, start), shape=(n, vertices)).tocsc()
 
 
 def find_twins(edges: Edges) -> Index:

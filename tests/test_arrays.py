@@ -5,13 +5,14 @@ from __future__ import annotations
 import copy
 import pickle
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
 import trimesh
 
 import curvcli
+from curvcli import arrays
 from curvcli.errors import InputError
 from tests import meshes
 
@@ -173,3 +174,21 @@ def test_only_files_are_welded(tmp_path: Path, weld: str | float) -> None:
         curvcli.analyze(given, "topology")
         with pytest.raises(curvcli.errors.UsageError, match="merged when a file is read"):
             curvcli.analyze(given, "topology", weld=weld)
+
+
+@pytest.mark.parametrize("kind", ["i8", ">i4", "u4", "i4"])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_arrays_are_taken_over_in_blocks(monkeypatch: pytest.MonkeyPatch, kind: str, order: Literal["C", "F"]) -> None:
+    monkeypatch.setattr("curvcli.arrays.LONG", 4)
+    faces = np.random.default_rng(0).integers(0, 30, (19, 3))
+    triangles = arrays.as_triangles(np.array(faces, kind, order=order), 30)
+    np.testing.assert_array_equal(triangles, faces)
+    points = np.random.default_rng(1).normal(size=(30, 3)).astype(np.float32)
+    np.testing.assert_array_equal(arrays.as_components(np.array(points, order=order)), points.T.astype(np.float64))
+    twice = [i for i, corners in enumerate(faces.tolist()) if len(set(corners)) < 3]
+    assert twice
+    assert arrays.with_repeated_corner(triangles).tolist() == twice
+    faces[17, 1] = 30
+    with pytest.raises(InputError, match=r"corner 30 does not exist.*to 29") as caught:
+        arrays.as_triangles(faces, 30)
+    assert caught.value.place == "face 17"
