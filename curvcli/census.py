@@ -43,12 +43,17 @@ def census(surface: Surface, groups: Groups) -> Census:
 
 
 def _count(surface: Surface, groups: Groups) -> Census:
-    vertices = groups.vertices.count_true(surface.referenced)
-    edges, faces = groups.edges.members(), groups.faces.members()
-    uncancelled = np.zeros(groups.edges.size, bool)
-    uncancelled[surface.uncancelled.edge] = True
-    boundary = groups.edges.count_true(surface.boundary_edges)
-    many = groups.edges.count_true(surface.nonmanifold_edges)
+    vertices, faces = groups.vertices.count_true(surface.referenced), groups.faces.members()
+    boundary = groups.faces.count_of(surface.boundary_half_edges // 3)
+    many = excess = conflicts = np.zeros(groups.count, np.int64)
+    if not surface.coherent:
+        lower, crowded = surface.edges.a, np.flatnonzero(surface.nonmanifold_edges)
+        many = groups.vertices.count_of(lower[crowded])
+        excess = groups.vertices.count_of(np.repeat(lower[crowded], surface.edges.valence[crowded] - 2))
+    if not surface.coherent or _turned(surface) is not None:
+        conflicts = groups.vertices.count_of(surface.edges.a[_winding_conflicts(surface)])
+    # The numbers n_e of all edges add up to three times the faces: only other edges than of two make a difference.
+    edges = (3 * faces + boundary - excess) // 2
     split = groups.vertices.count_true(surface.split_stars)
     if surface.orientable:
         orientable = np.ones(groups.count, bool)
@@ -65,16 +70,22 @@ def _count(surface: Surface, groups: Groups) -> Census:
         boundary == 0,
         (many == 0) & (split == 0),
         orientable,
-        ~groups.edges.any(_winding_conflicts(surface)),
-        ~groups.edges.any(uncancelled),
+        conflicts == 0,
+        groups.vertices.count_of(surface.uncancelled.a) == 0,
     )
+
+
+def _turned(surface: Surface) -> Mask | None:
+    """(F,) faces that the file winds the other way; None if there are none."""
+    return None if surface.cut_from is None else surface.cut_from.turned
 
 
 def _winding_conflicts(surface: Surface) -> Mask:
     """(E,) edges with n_e = 2 whose two faces run along them the same way as the file winds them."""
-    if surface.cut_from is None or surface.cut_from.turned is None:
+    turned = _turned(surface)
+    if turned is None:
         return surface.winding_conflicts
-    one, other = (surface.cut_from.turned[half_edges // 3] for half_edges in surface.edges.pairs)
+    one, other = (turned[half_edges // 3] for half_edges in surface.edges.pairs)
     conflict = surface.winding_conflicts.copy()
     conflict[surface.edges.inner] ^= one != other
     return conflict

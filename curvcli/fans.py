@@ -1,90 +1,140 @@
-"""Which vertices have one fan of faces about them: by walking round each, or by the graph of corners."""
+"""Which vertices have one fan of faces about them, and where the boundary is: by walking round every vertex.
+
+Every edge is met at both its ends, so that the faces at each vertex are all that is looked at, and no edge is sorted:
+all vertices with as many faces are walked round at once, in arrays that are read in order.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
+from .orientation import same_direction
 from .slices import LONG, slices
-from .topology import Edges, Index, Mask, find_twins, label_graph, neighbouring_corners, previous_corner
+from .threads import each
+from .topology import Edges, Index, Mask, find_edges, label_graph, neighbouring_corners
 
-# Stars are walked corner by corner up to this many faces; the rare larger ones go through the corner graph.
-_WALK_LIMIT = 64
+# Stars of more faces go through the graph of corners: here each face is compared with each.
+_WALK_LIMIT = 16
 
 
-def split_stars(faces: Index, edges: Edges, corner_count: Index, consistent: bool, boundary_edges: Index) -> Mask:
-    """(V,) vertices whose star is more than one fan of faces joined through edges with n_e = 2.
+@dataclass(frozen=True)
+class Stars:
+    """What the faces at each vertex say.
 
-    corner_count, boundary_edges: (V,) number of faces, and of edges with n_e = 1, at each vertex. Unreferenced vertices
-    count as one fan; ends of edges with n_e > 2 may be missed.
+    corner_count: (V,) number of faces. lowest: (V,) the lowest vertex of the star. split: (V,) stars of more than one
+    fan of faces joined through edges with n_e = 2; ends of edges with n_e > 2 may be missed.
+    coherent: whether no two faces run along an edge the same way, so that no edge has more than two.
+    rim: half-edges whose edge has no other face, in no order; only some of them if not coherent.
     """
-    vertices = len(corner_count)
-    split: Mask = boundary_edges > 2
-    if not consistent:
-        return split | _split_by_graph(faces, edges, np.arange(len(faces), dtype=np.int32), vertices)
-    # With one winding, turning counterclockwise about a vertex is a partial permutation of its corners: the star is one
-    # fan exactly if the walk meets every corner. It starts at the clockwise end of the fan where there is one.
-    turn, start = _turns(edges), np.full(vertices, -1, np.int32)
-    tail = faces.ravel()
-    for block in slices(len(tail), LONG):
-        start[tail[block].astype(np.intp)] = np.arange(block.start, block.stop, dtype=np.int32)
-    if len(edges.unpaired):
-        clockwise_end = previous_corner(np.flatnonzero(turn < 0))
-        start[tail[clockwise_end]] = clockwise_end
-    large = np.zeros(vertices, bool)
-    for block in slices(vertices, LONG):
-        apart, longer = _walk(turn, start[block], corner_count[block])
-        split[block][apart] = True
-        large[block][longer] = True
-    if not large.any():
-        return split
-    return split | (large & _split_by_graph(faces, edges, np.flatnonzero(large[faces].any(axis=1)), vertices))
+
+    corner_count: Index
+    lowest: Index
+    split: Mask
+    coherent: bool
+    rim: Index
+
+    def __post_init__(self) -> None:
+        for array in (self.corner_count, self.lowest, self.split, self.rim):
+            array.setflags(write=False)
 
 
-def _turns(edges: Edges) -> Index:
-    """(3F,) the corner next to each about its vertex, across the half-edge that arrives there; -1 if there is none."""
-    turn = find_twins(edges)
-    for block in slices(len(turn), 3 * LONG):
-        twin = turn[block].copy()
-        turn[block][1:], turn[block][::3] = twin[:-1], twin[2::3]
-    return turn
+class _Walked(NamedTuple):
+    """Vertices whose faces are not one fan, or too many to be told, and the boundary half-edges that leave the rest."""
+
+    undecided: NDArray[np.intp]
+    rim: Index
 
 
-def _walk(turn: Index, start: Index, corners: Index) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Of some vertices those where turning does not meet every corner, and those with too many corners to tell."""
-    split = np.zeros(len(start), bool)
-    active = np.flatnonzero(corners > 1)
-    at, length = start.take(active), corners.take(active)
-    begin = at
-    for step in range(1, _WALK_LIMIT):
-        if not len(active):
-            break
-        at = turn.take(at)
-        # One corner alone is no fan, unless the surface ends on both its sides: there the walk would have begun.
-        going = length > step + 2
-        stopped = (at < 0) | (at == begin)
-        if stopped.any():
-            split[active[stopped]] = True
-            going &= ~stopped
-        left = np.flatnonzero(going)
-        if len(left) < len(active):
-            active, at, begin, length = active.take(left), at.take(left), begin.take(left), length.take(left)
-    return np.flatnonzero(split), active
+def find_stars(faces: Index, vertices: int) -> Stars:
+    """Walk round all vertices."""
+    corners = _by_vertex(faces, vertices)
+    count = np.diff(corners.indptr)
+    lowest = np.arange(vertices, dtype=np.int32)
+
+    def walk(together: tuple[int, NDArray[np.intp]]) -> _Walked:
+        size, chosen = together
+        return _walk(faces, corners, size, chosen, lowest)
+
+    sizes = np.flatnonzero(np.bincount(count))
+    alike = ((int(size), np.flatnonzero(count == size)) for size in sizes if 0 < size <= _WALK_LIMIT)
+    walked = list(
+        each(((size, some[block]) for size, some in alike for block in slices(len(some), LONG // size)), walk)
+    )
+    undecided, split, coherent = count > _WALK_LIMIT, np.zeros(vertices, bool), True
+    for found in walked:
+        undecided[found.undecided] = True
+    rim = [found.rim for found in walked]
+    if undecided.any():
+        chosen = np.flatnonzero(undecided[faces].any(axis=1))
+        near = faces[chosen]
+        np.minimum.at(lowest, near.ravel(), np.repeat(near.min(axis=1), 3))
+        edges = find_edges(near, vertices)
+        coherent = not (edges.valence > 2).any() and not same_direction(near, *edges.pairs).any()
+        split = undecided & _split_by_graph(near, edges, vertices)
+        single = edges.half_edges(np.flatnonzero(edges.valence == 1))
+        single = single[undecided[near.ravel()[single]]]
+        rim.append((3 * chosen[single // 3] + single % 3).astype(np.int32))
+    return Stars(count, lowest, split, coherent, np.concatenate(rim))
 
 
-def _split_by_graph(faces: Index, edges: Edges, chosen: NDArray[np.integer], vertices: int) -> Mask:
-    """The same by connected components of corners, for any winding; right at vertices all of whose faces are chosen."""
-    one, other = edges.pairs
-    if len(chosen) < len(faces):
-        inside = np.zeros(len(faces), bool)
-        inside[chosen] = True
-        keep = inside[one // 3] & inside[other // 3]
-        one, other = one[keep], other[keep]
-    _, label = label_graph(3 * len(faces), *neighbouring_corners(faces, one, other))
-    corner = (3 * chosen[:, None] + np.arange(3)).ravel()
-    vertex = faces.ravel()[corner]
+def _by_vertex(faces: Index, vertices: int) -> Any:
+    """The corners by vertex: a sparse matrix with the faces as row indices and the places of the corners as data."""
+    n = len(faces)
+    place, start = np.empty(3 * n, np.int8), np.empty(n + 1, np.int32)
+    places = np.tile(np.arange(3, dtype=np.int8), min(n, LONG))
+    start[n] = 3 * n
+    for block in slices(n, LONG):
+        place[3 * block.start : 3 * block.stop] = places[: 3 * (block.stop - block.start)]
+        start[block] = np.arange(3 * block.start, 3 * block.stop, 3, dtype=np.int32)
+    return csr_array((place, faces.ravel(), start), shape=(n, vertices)).tocsc()
+
+
+def _walk(faces: Index, corners: Any, size: int, vertices: NDArray[np.intp], lowest: Index) -> _Walked:
+    """Walk round some vertices with equally many faces, from face to face across the edge that arrives at the vertex.
+
+    Each face has one edge that leaves the vertex and one that arrives there: the next face is the one that leaves for
+    where this one arrives from. It is one fan if this meets all faces and, at both ends of the boundary, ends.
+    """
+    # Rows are places in the star: operands are contiguous, and bits stand for sets of places.
+    at = corners.indptr.take(vertices).astype(np.intp) + np.arange(size)[:, None]
+    place = corners.data.take(at)
+    first = corners.indices.take(at)
+    first *= np.int32(3)
+    after = place + np.int8(1)
+    after -= 3 * (place == 2).view(np.int8)
+    to = faces.ravel().take(first + after)
+    origin = faces.ravel().take(first + (3 - place - after))
+    lowest[vertices] = np.minimum(vertices, np.minimum(to.min(axis=0), origin.min(axis=0)))
+
+    bit = np.left_shift(1, np.arange(size), dtype=np.uint8 if size <= 8 else np.uint16, casting="unsafe")
+    next_face = np.bitwise_or.reduce((to[:, None] == origin).view(np.uint8) * bit[:, None, None], axis=0)
+    every = np.bitwise_or.reduce(bit)
+    begin = every ^ np.bitwise_or.reduce(next_face, axis=0)
+    ends = begin != 0
+    here = (begin & -begin) | ~ends
+    met = here.copy()
+    for _ in range(size - 1):
+        here = np.bitwise_or.reduce(next_face * ((here & bit[:, None]) != 0), axis=0)
+        met |= here
+    # Where two faces leave for one vertex, or arrive from one, a place has two bits, or the walk has no end.
+    single = (next_face & (next_face - 1)) == 0
+    fan = (met == every) & single.all(axis=0) & ((next_face == 0).any(axis=0) == ends)
+    some = np.flatnonzero(fan & ends)
+    row = np.argmax((begin[some] & bit[:, None]) != 0, axis=0)
+    return _Walked(vertices[~fan], first[row, some] + place[row, some])
+
+
+def _split_by_graph(faces: Index, edges: Edges, vertices: int) -> Mask:
+    """The same by connected components of corners, for any winding; right at vertices all of whose faces are there."""
+    _, label = label_graph(3 * len(faces), *neighbouring_corners(faces, *edges.pairs))
+    vertex = faces.ravel()
     first = np.empty(vertices, np.int32)
-    first[vertex] = label[corner]
+    first[vertex] = label
     split = np.zeros(vertices, bool)
-    split[vertex[label[corner] != first[vertex]]] = True
+    split[vertex[label != first[vertex]]] = True
     return split

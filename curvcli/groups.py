@@ -52,11 +52,17 @@ class Segments:
             sums[filled] = np.add.reduceat(plain[order], start[filled])
         return sums
 
+    def count_of(self, members: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Number of the given members in each group."""
+        if self.label is None:
+            return np.array([len(members)])
+        return np.bincount(self.label[members] + 1, minlength=self.count + 1)[1:]
+
     def count_true(self, mask: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Number of members of each group where the mask holds."""
         if self.label is None:
             return np.array([np.count_nonzero(mask)])
-        return np.bincount(self.label[mask] + 1, minlength=self.count + 1)[1:]
+        return self.count_of(np.flatnonzero(mask))
 
     def any(self, mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Whether the mask holds for some member of each group."""
@@ -77,7 +83,7 @@ class Segments:
 
 @dataclass(frozen=True)
 class Groups:
-    """A partition of a surface's faces, with the vertices and edges that go with each part.
+    """A partition of a surface's faces, with the vertices that go with each part.
 
     kind: `whole`, `component` or `region`. face: (F,) group of each face. names: what each is called, if not by number.
     """
@@ -87,7 +93,6 @@ class Groups:
     face: Index
     faces: Segments
     vertices: Segments
-    edges: Segments
     names: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -97,17 +102,22 @@ class Groups:
         """How a group is named in checks and messages."""
         return self.kind if self.kind == "whole" else f"{self.kind} {self.names[group] if self.names else group}"
 
-    def of(self, element: str) -> Segments:
+    def edges(self, surface: Surface) -> Segments:
+        """The edges of the surface whose parts these are."""
+        vertex, edges = self.vertices.label, surface.edges
+        label = None if vertex is None else vertex[edges.a]
+        return Segments(label, self.count, len(edges))
+
+    def of(self, surface: Surface, element: str) -> Segments:
         """The segments of `vertex`, `edge` or `face` values."""
-        return {"vertex": self.vertices, "edge": self.edges, "face": self.faces}[element]
+        return self.edges(surface) if element == "edge" else {"vertex": self.vertices, "face": self.faces}[element]
 
 
 def whole(surface: Surface, kind: str = "whole", names: tuple[str, ...] = ()) -> Groups:
     """The whole surface as one group; unreferenced vertices have only nulls to add."""
-    sizes = surface.n_faces, surface.n_vertices, len(surface.edges)
-    faces, vertices, edges = (Segments(None, 1, size) for size in sizes)
+    faces, vertices = (Segments(None, 1, size) for size in (surface.n_faces, surface.n_vertices))
     face = np.broadcast_to(np.int32(0), surface.n_faces)  # without memory of its own
-    return Groups(kind, 1, face, faces, vertices, edges, names)
+    return Groups(kind, 1, face, faces, vertices, names)
 
 
 def by_label(surface: Surface, face: Index, count: int, kind: str, names: tuple[str, ...] = ()) -> Groups:
@@ -116,6 +126,5 @@ def by_label(surface: Surface, face: Index, count: int, kind: str, names: tuple[
         return whole(surface, kind, names)
     vertex = np.full(surface.n_vertices, -1, np.int32)
     vertex[surface.faces.ravel()] = np.repeat(face, 3)
-    labels = face, vertex, vertex[surface.edges.a]
-    faces, vertices, edges = (Segments(label, count, len(label)) for label in labels)
-    return Groups(kind, count, face, faces, vertices, edges, names)
+    faces, vertices = (Segments(label, count, len(label)) for label in (face, vertex))
+    return Groups(kind, count, face, faces, vertices, names)

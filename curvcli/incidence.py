@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from .arrays import frozen
-from .fans import split_stars
+from .fans import Stars, find_stars
 from .orientation import same_direction
 from .topology import Edges, Index, Mask, ends_of, find_edges, label_graph, renumber_by_lowest_member
 
@@ -27,9 +27,19 @@ class Incidence:
         return len(self.faces)
 
     @cached_property
+    def stars(self) -> Stars:
+        """What the faces at each vertex say."""
+        return find_stars(self.faces, self.n_vertices)
+
+    @cached_property
     def corner_count(self) -> Index:
         """(V,) number of faces at each vertex."""
-        return self.edges.corner_count
+        return self.stars.corner_count
+
+    @cached_property
+    def coherent(self) -> bool:
+        """Whether no two faces run along an edge the same way in the file, so that no edge has more than two."""
+        return self.stars.coherent
 
     @cached_property
     @frozen
@@ -44,35 +54,42 @@ class Incidence:
         return find_edges(self.faces, self.n_vertices)
 
     @cached_property
+    def n_edges(self) -> int:
+        """Edges, without looking for them where none has more than two faces."""
+        # The numbers n_e of all edges add up to three times the faces: only other edges than of two make a difference.
+        return (3 * self.n_faces + len(self.boundary_half_edges) - int(self._crowd.sum())) // 2
+
+    @cached_property
+    @frozen
+    def _crowd(self) -> Index:
+        """n_e − 2 of the edges with n_e > 2."""
+        return np.zeros(0, np.int32) if self.coherent else self.edges.valence[self.nonmanifold_edges] - np.int32(2)
+
+    @cached_property
     @frozen
     def degree(self) -> Index:
         """(V,) number of edges at each vertex."""
-        # Each face has two edges at a corner, so the numbers n_e of the edges at a vertex add up to twice its faces:
-        # only edges with another n_e than 2 make a difference.
-        twice, odd = 2 * self.corner_count, self.edges.unpaired
-        for end in (self.edges.a, self.edges.b):
-            np.add.at(twice, end[odd], 2 - self.edges.valence[odd])
+        # Each face has two edges at a corner, so that the same holds at every vertex.
+        twice = 2 * self.corner_count + self.boundary_degree
+        if len(self._crowd):
+            for end in (self.edges.a, self.edges.b):
+                np.subtract.at(twice, end[self.nonmanifold_edges], self._crowd)
         return twice // np.int32(2)
-
-    def _edge_ends(self, chosen: Mask) -> Index:
-        """(V,) how many of the chosen edges end at each vertex."""
-        count, edges = np.zeros(self.n_vertices, np.int32), np.flatnonzero(chosen)
-        for end in (self.edges.a, self.edges.b):
-            np.add.at(count, end[edges], np.int32(1))
-        return count
 
     @cached_property
     @frozen
     def boundary_edges(self) -> Mask:
         """(E,) edges with n_e = 1."""
-        mask: Mask = self.edges.valence == 1
-        return mask
+        return self.edges.valence == 1 if len(self.boundary_half_edges) else np.zeros(self.n_edges, bool)
 
     @cached_property
     @frozen
     def boundary_degree(self) -> Index:
         """(V,) number of boundary edges at each vertex."""
-        return self._edge_ends(self.boundary_edges)
+        count = np.zeros(self.n_vertices, np.int32)
+        for end in ends_of(self.faces, self.boundary_half_edges):
+            np.add.at(count, end, np.int32(1))
+        return count
 
     @cached_property
     @frozen
@@ -85,7 +102,10 @@ class Incidence:
     @frozen
     def boundary_half_edges(self) -> Index:
         """Half-edges of the boundary edges, in edge order."""
-        return self.edges.half_edges(np.flatnonzero(self.boundary_edges))
+        if not self.coherent:
+            return self.edges.half_edges(np.flatnonzero(self.edges.valence == 1))
+        tail, head = ends_of(self.faces, self.stars.rim)
+        return self.stars.rim[np.lexsort([np.maximum(tail, head), np.minimum(tail, head)])].astype(np.int32)
 
     @cached_property
     def boundary_loop_of(self) -> tuple[int, Index]:
@@ -100,23 +120,23 @@ class Incidence:
     @frozen
     def nonmanifold_edges(self) -> Mask:
         """(E,) edges with n_e > 2."""
-        mask: Mask = self.edges.valence > 2
-        return mask
+        return np.zeros(self.n_edges, bool) if self.coherent else self.edges.valence > 2
 
     @cached_property
     @frozen
     def nonmanifold_ends(self) -> Mask:
         """(V,) ends of edges with n_e > 2."""
-        mask: Mask = self._edge_ends(self.nonmanifold_edges) > 0
+        mask = np.zeros(self.n_vertices, bool)
+        if not self.coherent:
+            for end in (self.edges.a, self.edges.b):
+                mask[end[self.nonmanifold_edges]] = True
         return mask
 
     @cached_property
     @frozen
     def split_stars(self) -> Mask:
         """(V,) vertices whose star is not one fan and which are not the end of an edge with n_e > 2."""
-        corners, boundary = self.corner_count, self.boundary_degree
-        split = split_stars(self.faces, self.edges, corners, self.consistent_winding, boundary)
-        return split & ~self.nonmanifold_ends
+        return self.stars.split & ~self.nonmanifold_ends
 
     @cached_property
     @frozen
@@ -139,10 +159,9 @@ class Incidence:
     @frozen
     def winding_conflicts(self) -> Mask:
         """(E,) edges with n_e = 2 whose two faces run along them the same way in the file."""
-        conflict = np.zeros(len(self.edges), bool)
-        same = same_direction(self.faces, *self.edges.pairs)
-        if same.any():
-            conflict[self.edges.inner] = same
+        conflict = np.zeros(self.n_edges, bool)
+        if not self.coherent:
+            conflict[self.edges.inner] = same_direction(self.faces, *self.edges.pairs)
         return conflict
 
     @cached_property

@@ -96,10 +96,9 @@ def _ways(faces: Index, half_edges: Index, orientation: Orientation) -> Sign:
 class Uncancelled(NamedTuple):
     """Edges along which the oriented faces do not run as often from a to b as from b to a.
 
-    edge: (n,) which edges. a, b: (n,) their ends. surplus: (n,) faces that run from a to b less those from b to a.
+    a, b: (n,) their ends. surplus: (n,) faces that run from a to b less those from b to a.
     """
 
-    edge: NDArray[np.intp]
     a: Index
     b: Index
     surplus: NDArray[np.int32]
@@ -117,12 +116,18 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
     else:
         edge, half_edges = np.arange(len(edges)), edges.order
     if not len(edge):
-        return Uncancelled(edge, edges.a[edge], edges.b[edge], np.zeros(0, np.int32))
+        return Uncancelled(edges.a[edge], edges.b[edge], np.zeros(0, np.int32))
     valence, way = edges.valence[edge], _ways(faces, half_edges, orientation)
     surplus = np.add.reduceat(way, np.cumsum(valence) - valence, dtype=np.int32)
     left = np.flatnonzero(surplus)
-    edge = edge[left]
-    return Uncancelled(edge, edges.a[edge], edges.b[edge], surplus[left])
+    return Uncancelled(edges.a[edge[left]], edges.b[edge[left]], surplus[left])
+
+
+def uncancelled_rim(faces: Index, rim: Index, orientation: Orientation) -> Uncancelled:
+    """The same where any two faces of an edge cancel. rim: half-edges of the edges with one face."""
+    tail, head = ends_of(faces, rim)
+    surplus = _ways(faces, rim, orientation).astype(np.int32)
+    return Uncancelled(np.minimum(tail, head), np.maximum(tail, head), surplus)
 
 
 def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask:

@@ -23,10 +23,9 @@ from .orientation import (
     orient,
     orient_stars,
     uncancelled,
+    uncancelled_rim,
 )
 from .plurals import counted
-from .slices import LONG
-from .threads import another_thread
 from .topology import Index, Mask, renumber_by_lowest_member, vertex_components
 
 if TYPE_CHECKING:
@@ -36,13 +35,10 @@ if TYPE_CHECKING:
 # the cross ratio's square needs, would leave the range of doubles at edges 2⁵³ times shorter than the extent.
 _LARGEST_EXPONENT = 60
 
-# Up to so many vertices the pieces are told beside the stars: with more, the memory for both at once counts more.
-_FEW = 1 << 24
-
 STATUS = ("interior", "boundary", "degenerate", "nonmanifold", "unreferenced")
 
 
-# What the topology, the status of vertices and the orientation need of the edges.
+# What the topology, the status of vertices and the orientation need of stars and edges.
 _OF_EDGES = (
     "interior",
     "without_orientation",
@@ -223,13 +219,19 @@ class Surface(Incidence):
     @cached_property
     def uncancelled(self) -> Uncancelled:
         """Edges along which the oriented faces do not cancel."""
+        if self.coherent:  # two faces of one edge are turned or kept together
+            return uncancelled_rim(self.faces, self.boundary_half_edges, self.orientation)
         return uncancelled(self.faces, self.edges, self.orientation, self.consistent_winding)
 
     @cached_property
     @frozen
     def closed_patches(self) -> Mask:
         """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
-        return closed_patches(self.faces, self.edges, self._file_orientation)
+        if not self.coherent:
+            return closed_patches(self.faces, self.edges, self._file_orientation)
+        closed = np.ones(len(self._file_orientation.orientable), bool)
+        closed[self._file_orientation.patch[self.boundary_half_edges // 3]] = False
+        return closed
 
     @cached_property
     @frozen
@@ -258,29 +260,23 @@ class Surface(Incidence):
     @cached_property
     def components(self) -> Groups:
         """Pieces connected by shared vertices, listed by their lowest face."""
-        count, vertex = vertex_components(self.edges, self.n_vertices)
-        loose = self.n_vertices - int(np.count_nonzero(self.referenced))
-        if count - loose == 1:
+        count, vertex = vertex_components(self.faces, self.stars.lowest, self.referenced)
+        if count == 1:
             return whole(self, "component")
         pieces, face = renumber_by_lowest_member(vertex[self.faces[:, 0]], count)
         return by_label(self, face, pieces, "component")
 
     def work_out_topology(self) -> None:
-        """Work out what every analysis asks of the edges."""
-        # Who is referenced is all that the pieces need beside the edges.
-        with another_thread(worth=LONG < self.referenced.size <= _FEW) as begun:
-            pieces = begun(lambda: self.components)
-            for known in ("interior", "degree"):
-                getattr(self, known)
-            pieces()
+        """Work out what every analysis asks of stars and edges."""
         for known in _OF_EDGES:
             getattr(self, known)
+        self.__dict__.pop("stars", None)
 
     def let_go_of_edges(self) -> None:
         """Work out what every analysis asks of the edges, and give their memory back: 72 bytes per vertex.
 
-        Whatever asks for them later has them sorted again, which costs less than the first touch of as much memory by
-        all that does without them.
+        They are looked for only where the winding does not cohere. Whatever asks for them later has them sorted again,
+        which costs less than the first touch of as much memory by all that does without them.
         """
         self.work_out_topology()
         self.__dict__.pop("edges", None)

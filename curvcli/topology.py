@@ -21,7 +21,7 @@ from .threads import for_each
 Index = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 
-# Of so many edges one is looked at first: nearly always it and its like join what can be joined.
+# Of so many faces one is looked at first: nearly always it and its like join what can be joined.
 _SAMPLE = 8
 
 
@@ -42,18 +42,17 @@ class InnerEdges(NamedTuple):
 class Edges:
     """The edges of a face list, sorted by (a, b).
 
-    a, b: (E,) ends, a < b. order: (3F,) half-edges grouped by edge. corner_count: (V,) number of faces at each vertex.
+    a, b: (E,) ends, a < b. order: (3F,) half-edges grouped by edge.
     starts: (E + 1,) where each edge's half-edges begin in `order`; None where every edge has two.
     """
 
     a: Index
     b: Index
     order: Index
-    corner_count: Index
     starts: Index | None = None
 
     def __post_init__(self) -> None:
-        for array in (self.a, self.b, self.order, self.corner_count, self.starts):
+        for array in (self.a, self.b, self.order, self.starts):
             if array is not None:
                 array.setflags(write=False)
 
@@ -143,8 +142,6 @@ def find_edges(faces: Index, vertices: int) -> Edges:
     n = len(by_high.data)
     by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
     high, order, rows = by_low.indices, by_low.data, by_low.indptr
-    # Two half-edges of each face at a vertex end there, either of them once as the higher or the lower end.
-    corner_count = (np.diff(by_high.indptr) + np.diff(rows)) // np.int32(2)
     del by_high  # each array let go is memory that need not be touched for the first time
     first = np.ones(n, bool)
     np.not_equal(high[1:], high[:-1], out=first[1:])
@@ -152,7 +149,7 @@ def find_edges(faces: Index, vertices: int) -> Edges:
     count = int(np.count_nonzero(first))
     if 2 * count == n and first[::2].all():  # as on closed surfaces
         low_end = np.repeat(np.arange(vertices, dtype=np.int32), np.diff(rows) // 2)
-        return Edges(low_end, high[::2].copy(), order, corner_count)
+        return Edges(low_end, high[::2].copy(), order)
     low_end, high_end = np.empty(count, np.int32), np.empty(count, np.int32)
     start = np.full(count + 1, n, np.int32)
     done = 0
@@ -163,7 +160,7 @@ def find_edges(faces: Index, vertices: int) -> Edges:
         low = np.repeat(np.arange(block.start, block.stop, dtype=np.int32), np.diff(rows[block.start : block.stop + 1]))
         low_end[new], high_end[new], start[new] = low.take(each), high[begin:end].take(each), each + begin
         done = new.stop
-    return Edges(low_end, high_end, order, corner_count, start)
+    return Edges(low_end, high_end, order, start)
 
 
 def _by_high(faces: Index, vertices: int) -> Any:
@@ -200,35 +197,33 @@ def label_graph(nodes: int, one: NDArray[np.integer], other: NDArray[np.integer]
     return int(count), label
 
 
-def vertex_components(edges: Edges, vertices: int) -> tuple[int, Index]:
-    """Pieces connected by shared vertices; an unreferenced vertex is a piece of its own here.
+def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[int, Index]:
+    """Number of pieces connected by shared vertices, and the piece of each vertex that some face uses.
 
+    lowest: (V,) the lowest vertex of each star.
     Every vertex points to its lowest neighbour if that is lower, and pointers are followed to their ends; the few
-    vertices without a lower neighbour are left to be joined, by some of the edges and then by what is left to do.
+    vertices without a lower neighbour are left to be joined, by some of the faces and then by what is left to do.
     """
-    own = np.arange(vertices, dtype=np.int32)
-    parent = own.copy()
-    for block in slices(len(edges), LONG):
-        np.minimum.at(parent, edges.b[block].astype(np.intp), edges.a[block])
-    for block in slices(vertices, LONG):  # pointers lead down, where all have been followed to their ends
+    parent = lowest.copy()
+    for block in slices(len(parent)):  # pointers lead down, where all have been followed to their ends
         here = parent[block]
         while not np.array_equal(further := parent.take(here), here):
             here[:] = further
-    lowest = np.flatnonzero(parent == own)
-    count, number = len(lowest), own
-    least = np.count_nonzero(edges.corner_count == 0) + 1
-    number[lowest] = np.arange(count, dtype=np.int32)
+    ends = np.flatnonzero((parent == np.arange(len(parent), dtype=np.int32)) & referenced)
+    count, number = len(ends), np.zeros_like(parent)
+    number[ends] = np.arange(count, dtype=np.int32)
     piece = number.take(parent)
     for step in (_SAMPLE, 1):
+        if count == 1:
+            break
         across = [np.zeros((2, 0), np.int32)]
-        for block in slices(len(edges), LONG * step):
-            one, other = (piece.take(end[block][::step]) for end in (edges.a, edges.b))
-            apart = np.flatnonzero(one != other)
-            across.append(np.stack([one.take(apart), other.take(apart)]))
+        for block in slices(len(faces), LONG * step):
+            a, b, c = (piece.take(corner) for corner in faces[block][::step].T)
+            for one, other in ((a, b), (b, c)):
+                apart = np.flatnonzero(one != other)
+                across.append(np.stack([one.take(apart), other.take(apart)]))
         count, label = label_graph(count, *np.concatenate(across, axis=1))
         piece = label.take(piece)
-        if count == least:
-            break
     return count, piece
 
 

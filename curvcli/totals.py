@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .blocks import EPSILON, LOST, cross, dot
 from .census import census, classify
 from .declare import Quantity, passes
-from .groups import Groups
+from .groups import Groups, Segments
 from .slices import slices
 from .surface import Surface
 
@@ -62,7 +62,7 @@ def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> I
     for quantity in passes.quantities(public=False):
         if quantity.total is None or quantity.name not in columns:
             continue
-        total = _sum(groups, quantity, columns[quantity.name])
+        total = _sum(groups.of(surface, quantity.on), quantity, columns[quantity.name])
         if quantity.parity == "odd":
             total = np.where(orientable if total.ndim == 1 else orientable[:, None], total, np.nan)
         yield quantity.total, total, quantity.length_exponent, quantity.mean_degree
@@ -70,8 +70,7 @@ def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> I
             yield "volume", volumes(surface, groups), 3, 0
 
 
-def _sum(groups: Groups, quantity: Quantity, column: Any) -> Floats:
-    segments = groups.of(quantity.on)
+def _sum(segments: Segments, quantity: Quantity, column: Any) -> Floats:
     return np.stack([segments.sum(x) for x in column], axis=1) if quantity.vector else segments.sum(column)
 
 
@@ -117,7 +116,7 @@ def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dic
     integrals = [
         volumes(surface, groups),
         groups.faces.sum(columns["face_area"]),
-        groups.edges.sum(columns["H_theta"]) / 2,
+        groups.edges(surface).sum(columns["H_theta"]) / 2,
         groups.vertices.sum(columns["K"]) / 3,
     ]
     shown = [surface.in_file_unit(value, 3 - power) for power, value in enumerate(integrals)]

@@ -142,7 +142,7 @@ def vector_area(
     left, times = surface.uncancelled, surface.uncancelled.surplus
     base = surface.base[:, None]
     a, b = (surface.xyz[:, end] - base for end in (left.a, left.b))
-    label = None if groups.edges.label is None else groups.edges.label[left.edge]
+    label = None if groups.vertices.label is None else groups.vertices.label[left.a]
     segments = Segments(label, groups.count, len(times))
     swept = [0.5 * part * times for part in cross(a, b)]
     expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)

@@ -99,7 +99,7 @@ def _regions(analysis: Analysis) -> list[Piece]:
 
 def loops(analysis: Analysis) -> list[dict[str, Any]]:
     """One row per boundary loop, vectors as lists."""
-    if not analysis.surface.boundary_edges.any():
+    if not len(analysis.surface.boundary_half_edges):
         return []
     from ..curves.loops import loop_table
 
