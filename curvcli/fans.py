@@ -6,6 +6,7 @@ all vertices with as many faces are walked round at once, in arrays that are rea
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -60,11 +61,7 @@ def find_stars(faces: Index, vertices: int) -> Stars:
         size, chosen = together
         return _walk(faces, corners, size, chosen, lowest)
 
-    sizes = np.flatnonzero(np.bincount(count))
-    alike = ((int(size), np.flatnonzero(count == size)) for size in sizes if 0 < size <= _WALK_LIMIT)
-    walked = list(
-        each(((size, some[block]) for size, some in alike for block in slices(len(some), LONG // size)), walk)
-    )
+    walked = list(each(_alike(count), walk))
     undecided, split, coherent = count > _WALK_LIMIT, np.zeros(vertices, bool), True
     for found in walked:
         undecided[found.undecided] = True
@@ -92,6 +89,14 @@ def _by_vertex(faces: Index, vertices: int) -> Any:
         place[3 * block.start : 3 * block.stop] = places[: 3 * (block.stop - block.start)]
         start[block] = np.arange(3 * block.start, 3 * block.stop, 3, dtype=np.int32)
     return csr_array((place, faces.ravel(), start), shape=(n, vertices)).tocsc()
+
+
+def _alike(count: Index) -> Iterator[tuple[int, NDArray[np.intp]]]:
+    """Vertices with equally many faces, some at a time, and how many."""
+    for size in np.flatnonzero(np.bincount(count)[1 : _WALK_LIMIT + 1]) + 1:
+        vertices = np.flatnonzero(count == size)
+        for part in slices(len(vertices), LONG // int(size)):
+            yield int(size), vertices[part]
 
 
 def _walk(faces: Index, corners: Any, size: int, vertices: NDArray[np.intp], lowest: Index) -> _Walked:
