@@ -16,11 +16,12 @@ from scipy.sparse import csr_array
 
 from .orientation import same_direction
 from .slices import LONG, slices
-from .threads import each
 from .topology import Edges, Index, Mask, find_edges, label_graph, neighbouring_corners
 
 # Stars of more faces go through the graph of corners: here each face is compared with each.
 _WALK_LIMIT = 16
+# As many corners at a time: fewer, and calls cost more than what they do.
+_CORNERS = 65536
 
 
 @dataclass(frozen=True)
@@ -56,16 +57,11 @@ def find_stars(faces: Index, vertices: int) -> Stars:
     corners = _by_vertex(faces, vertices)
     count = np.diff(corners.indptr)
     lowest = np.arange(vertices, dtype=np.int32)
-
-    def walk(together: tuple[int, NDArray[np.intp]]) -> _Walked:
-        size, chosen = together
-        return _walk(faces, corners, size, chosen, lowest)
-
-    walked = list(each(_alike(count), walk))
-    undecided, split, coherent = count > _WALK_LIMIT, np.zeros(vertices, bool), True
-    for found in walked:
+    undecided, split, coherent, rim = count > _WALK_LIMIT, np.zeros(vertices, bool), True, []
+    for size, some in _alike(count):
+        found = _walk(faces, corners, size, some, lowest)
         undecided[found.undecided] = True
-    rim = [found.rim for found in walked]
+        rim.append(found.rim)
     if undecided.any():
         chosen = np.flatnonzero(undecided[faces].any(axis=1))
         near = faces[chosen]
@@ -95,7 +91,7 @@ def _alike(count: Index) -> Iterator[tuple[int, NDArray[np.intp]]]:
     """Vertices with equally many faces, some at a time, and how many."""
     for size in np.flatnonzero(np.bincount(count)[1 : _WALK_LIMIT + 1]) + 1:
         vertices = np.flatnonzero(count == size)
-        for part in slices(len(vertices), LONG // int(size)):
+        for part in slices(len(vertices), _CORNERS // int(size)):
             yield int(size), vertices[part]
 
 
