@@ -212,20 +212,21 @@ def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[in
         own = here == np.arange(block.start, block.stop, dtype=np.int32)
         found.append(np.flatnonzero(own & referenced[block]) + block.start)
     ends = np.concatenate(found)
-    count, piece = len(ends), np.zeros_like(parent)  # of the ends alone, as long as there are pieces to join
-    piece[ends] = np.arange(count, dtype=np.int32)
+    count, number = len(ends), np.zeros_like(parent)
+    number[ends] = np.arange(count, dtype=np.int32)
+    piece = number.take(parent)
     for step in (_SAMPLE, 1):
         if count == 1:
             break
         across = [np.zeros((2, 0), np.int32)]
         for block in slices(len(faces), LONG * step):
-            a, b, c = (piece.take(parent.take(corner)) for corner in faces[block][::step].T)
+            a, b, c = (piece.take(corner) for corner in faces[block][::step].T)
             for one, other in ((a, b), (b, c)):
                 apart = np.flatnonzero(one != other)
                 across.append(np.stack([one.take(apart), other.take(apart)]))
         count, label = label_graph(count, *np.concatenate(across, axis=1))
-        piece[ends] = label.take(piece.take(ends))
-    return count, piece.take(parent) if count > 1 else piece
+        piece = label.take(piece)
+    return count, piece
 
 
 def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
