@@ -110,6 +110,9 @@ class Surface(Incidence):
         self._check_finite()
 
     def _check_finite(self) -> None:
+        with np.errstate(over="ignore", invalid="ignore"):
+            if np.isfinite(self.xyz_given.sum()):  # nothing that is not finite adds up to what is
+                return
         bad = ~np.isfinite(self.xyz_given).all(axis=0)
         if not bad.any():
             return

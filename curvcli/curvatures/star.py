@@ -43,10 +43,11 @@ def star_sums(surface: Surface) -> tuple[Column | Flags, ...]:
     """
     sums = sweep(surface)
     degenerate = np.zeros(surface.n_vertices, bool)
-    degenerate[surface.faces[sums.degenerate_face].ravel()] = True
-    loose = np.flatnonzero(~surface.referenced)
-    sums.vector[:, loose] = sums.curvature[:, loose] = np.nan
-    sums.curvature[:, np.flatnonzero(degenerate)] = np.nan
+    degenerate[surface.faces[np.flatnonzero(sums.degenerate_face)]] = True
+    loose = ~surface.referenced
+    for vectors, undefined in ((sums.vector, loose), (sums.curvature, loose | degenerate)):
+        if undefined.any():
+            np.copyto(vectors, np.nan, where=undefined)
     return (
         sums.angle_sum,
         sums.area,
