@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from .compensated import cross_of_edges
 from .slices import ENTRIES, slices
 from .threads import another_thread, for_each
-from .topology import Index, Mask
+from .topology import Index, Mask, faces_at
 
 if TYPE_CHECKING:
     from .orientation import Sign
@@ -273,7 +273,7 @@ def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
     large = surface.corner_count > LARGE_STAR
     if not large.any():
         return
-    chosen = np.flatnonzero(large[surface.faces].any(axis=1))
+    chosen = faces_at(surface.faces, large)
     vertices, terms = [], []
     for block in slices(len(chosen)):
         face = surface.faces[chosen[block]]

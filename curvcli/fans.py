@@ -16,7 +16,7 @@ from scipy.sparse import csr_array
 
 from .orientation import same_direction
 from .slices import LONG, slices
-from .topology import Edges, Index, Mask, find_edges, label_graph, neighbouring_corners
+from .topology import Edges, Index, Mask, faces_at, find_edges, label_graph, neighbouring_corners
 
 # Stars of more faces go through the graph of corners: here each face is compared with each.
 _WALK_LIMIT = 16
@@ -46,7 +46,7 @@ class Stars:
 
 
 class _Walked(NamedTuple):
-    """Vertices whose faces are not one fan, or too many to be told, and the boundary half-edges that leave the rest."""
+    """Vertices whose faces are not seen to be one fan, and the boundary half-edges that leave the others."""
 
     undecided: NDArray[np.intp]
     rim: Index
@@ -57,21 +57,22 @@ def find_stars(faces: Index, vertices: int) -> Stars:
     corners = _by_vertex(faces, vertices)
     count = np.diff(corners.indptr)
     lowest = np.arange(vertices, dtype=np.int32)
-    undecided, split, coherent, rim = count > _WALK_LIMIT, np.zeros(vertices, bool), True, []
+    undecided, rim = count > _WALK_LIMIT, []
     for size, some in _alike(count):
         found = _walk(faces, corners, size, some, lowest)
         undecided[found.undecided] = True
         rim.append(found.rim)
+    split, coherent = np.zeros(vertices, bool), True
     if undecided.any():
-        chosen = np.flatnonzero(undecided[faces].any(axis=1))
+        chosen = faces_at(faces, undecided)
         near = faces[chosen]
         np.minimum.at(lowest, near.ravel(), np.repeat(near.min(axis=1), 3))
         edges = find_edges(near, vertices)
         coherent = not (edges.valence > 2).any() and not same_direction(near, *edges.pairs).any()
         split = undecided & _split_by_graph(near, edges, vertices)
-        single = edges.half_edges(np.flatnonzero(edges.valence == 1))
-        single = single[undecided[near.ravel()[single]]]
-        rim.append((3 * chosen[single // 3] + single % 3).astype(np.int32))
+        alone = edges.half_edges(np.flatnonzero(edges.valence == 1))
+        alone = alone[undecided[near.ravel()[alone]]]  # all faces of the others need not be near
+        rim.append((3 * chosen[alone // 3] + alone % 3).astype(np.int32))
     return Stars(count, lowest, split, coherent, np.concatenate(rim))
 
 

@@ -15,7 +15,7 @@ from .loading.weld import weld_exact
 from .plurals import agree, counted
 from .precision import is_single
 from .surface import Surface
-from .topology import find_edges
+from .topology import faces_at, find_edges
 
 # Rounding of the coordinates that moves K by more than this many radians is worth a warning: to doubles; and to
 # float32, which is what most files hold and what their users know, where it spoils K altogether.
@@ -178,7 +178,7 @@ def welding(surface: Surface) -> str:
     open_now, crowded_now = (int(np.count_nonzero(which & ours)) for which in (old.valence == 1, old.valence > 2))
     if not open_now:
         return f"{way_out}; none lies on the boundary"
-    faces = lowest[surface.faces[touched[surface.faces].any(axis=1)]]
+    faces = lowest[surface.faces[faces_at(surface.faces, touched)]]
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
     new = find_edges(faces, surface.n_vertices)
     ours = merged[new.a] | merged[new.b]

@@ -136,6 +136,12 @@ def ends_of(faces: Index, half_edges: NDArray[np.integer]) -> tuple[Index, Index
     return corners.take(half_edges), corners.take(next_corner(half_edges))
 
 
+def faces_at(faces: Index, chosen: Mask) -> NDArray[np.intp]:
+    """The faces with a corner among the chosen vertices."""
+    blocks = slices(len(faces), LONG)
+    return np.concatenate([np.flatnonzero(chosen.take(faces[block]).any(axis=1)) + block.start for block in blocks])
+
+
 def find_edges(faces: Index, vertices: int) -> Edges:
     """Sort the half-edges by their ends with two counting sorts (the transposition of a sparse matrix is one)."""
     by_high = _by_high(faces, vertices)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..blocks import LOST, cross, dot, triangles
 from ..slices import slices
+from ..topology import faces_at
 from .boundary import Boundary
 from .frames import unit
 from .polygon import Floats, Mask
@@ -89,7 +90,7 @@ class Darboux:
         place = np.full(fans.count, -1)
         place[wanted] = np.arange(len(wanted))
         at_boundary: Mask = surface.boundary
-        touching = np.flatnonzero(at_boundary[surface.faces].any(axis=1))
+        touching = faces_at(surface.faces, at_boundary)
         angle, area, vector = np.zeros(len(wanted)), np.zeros(len(wanted)), np.zeros((3, len(wanted)))
         for block in slices(len(touching)):
             face = touching[block]
