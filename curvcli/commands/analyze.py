@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 @options.reading
 @options.estimating
 @options.as_json
-@click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.K.")
+@options.get("totals.K")
 @options.schema
 @options.stream_format
 @options.drawing
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 @options.force
 @options.strict
 @options.talking
-def command(meshes: tuple[str, ...], as_json: bool, get: str | None, **settings: Any) -> int:
+def command(meshes: tuple[str, ...], as_json: bool, get: tuple[str, ...], **settings: Any) -> int:
     """Compute the curvatures of each MESH, check the identities they keep, and say so.
 
     Without -o, --json or --get, a summary goes to stdout. Outputs appear whole or not at all.
@@ -80,7 +80,7 @@ class Run:
         self,
         meshes: tuple[str, ...],
         as_json: bool,
-        get: str | None,
+        get: tuple[str, ...],
         *,
         outputs: tuple[str, ...],
         tables: tuple[str, ...],
@@ -204,7 +204,7 @@ class Run:
         """Whether anything that is said or written depends on the checks."""
         from ..output.formats import format_of
 
-        said = self.as_json or self.get is not None or self.strict or not (self.quiet or self.to_stdout)
+        said = self.as_json or bool(self.get) or self.strict or not (self.quiet or self.to_stdout)
         name = self.stream_format
         kinds = {format_of(path, name=name if path == "-" else None).kind for path in paths}
         return said or not kinds <= {"table", "mesh", "picture"}
@@ -220,10 +220,11 @@ class Run:
             from ..report.build import model
 
             return model(analysis)
-        if self.get is not None:
+        if self.get:
             from ..report.lookup import look_up
 
-            click.echo(look_up(analysis.report(), self.get))
+            report = analysis.report()
+            click.echo("\n".join([look_up(report, key) for key in self.get]))
         elif not self.to_stdout and not self.quiet:
             from ..report.text import show
 

@@ -69,7 +69,7 @@ _CONVENTIONS = (
     "repeatable.",
 )
 @options.as_json
-@click.option("--get", metavar="KEY", help="One value of the report on stdout, such as totals.nonconformality.")
+@options.get("totals.nonconformality")
 @options.stream_format
 @options.precision
 @options.passes
@@ -132,7 +132,7 @@ def compare_map(
     outputs: tuple[str, ...],
     tables: tuple[str, ...],
     as_json: bool,
-    get: str | None,
+    get: tuple[str, ...],
     stream_format: str | None,
     precision: str,
     weld: str,

@@ -32,7 +32,7 @@ def compare(
     exact: bool,
     outputs: tuple[str, ...],
     as_json: bool,
-    get: str | None,
+    get: tuple[str, ...],
     stream_format: str | None,
     precision: str,
     force: bool,

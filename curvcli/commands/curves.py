@@ -38,7 +38,7 @@ TABLES = ("curves", "vertices")
     help="Write a table, KIND curves (a row per curve) or vertices (as -o); repeatable.",
 )
 @options.as_json
-@click.option("--get", metavar="KEY", help="One value of the report on stdout, such as curves.0.writhe.")
+@options.get("curves.0.writhe")
 @options.stream_format
 @click.option(
     "--max-writhe",
@@ -78,7 +78,7 @@ def measure(
     outputs: tuple[str, ...],
     tables: tuple[str, ...],
     as_json: bool,
-    get: str | None,
+    get: tuple[str, ...],
     stream_format: str | None,
     max_writhe: int,
     precision: str,

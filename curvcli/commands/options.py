@@ -43,6 +43,14 @@ def _schema(context: click.Context, option: click.Parameter, value: bool) -> Non
 
 
 as_json = click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+
+
+def get(example: str) -> Decorator:
+    """`--get`, which may be asked for more than one value."""
+    text = f"One value of the report on stdout, such as {example}; repeatable, a line for each."
+    return click.option("--get", metavar="KEY", multiple=True, help=text)
+
+
 stream_format = click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
 precision = click.option(
     "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."

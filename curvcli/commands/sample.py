@@ -58,7 +58,7 @@ def command(
     from ..report.samples import describe, listing
     from ..samples import get
 
-    one_stdout(outputs, False, None, stream_format)
+    one_stdout(outputs, False, (), stream_format)
     if name is None:
         if outputs:
             raise click.UsageError("no NAME given for the outputs", click.get_current_context())

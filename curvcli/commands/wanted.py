@@ -58,16 +58,16 @@ def tables_and_reports(
     return found
 
 
-def one_stdout(paths: Iterable[str], as_json: bool, get: str | None, stream_format: str | None) -> bool:
+def one_stdout(paths: Iterable[str], as_json: bool, get: tuple[str, ...], stream_format: str | None) -> bool:
     """Whether an output goes to stdout.
 
     Errors: click.UsageError when two things want stdout, or a format is typed for an output that is not there.
     """
     context = click.get_current_context()
     taken = "-" in paths
-    if as_json and get is not None:
+    if as_json and get:
         raise click.UsageError("--json and --get both want stdout; choose one", context)
-    if taken and (as_json or get is not None):
+    if taken and (as_json or get):
         raise click.UsageError("-o - and --json or --get both want stdout; choose one", context)
     if not taken and context.get_parameter_source("stream_format") is ParameterSource.COMMANDLINE:
         raise click.UsageError(f"--format {stream_format} names the format of `-o -`, which is not given", context)
@@ -80,15 +80,18 @@ def stdin_once(meshes: Sequence[str]) -> None:
         raise click.UsageError("`-` is given twice, but stdin can be read once only", click.get_current_context())
 
 
-def tell(report: Callable[[], Any], summary: Callable[[], None], as_json: bool, get: str | None, quiet: bool) -> None:
-    """What goes to stdout: the report as plain values, one value of it, or else the summary, which prints itself."""
+def tell(
+    report: Callable[[], Any], summary: Callable[[], None], as_json: bool, get: tuple[str, ...], quiet: bool
+) -> None:
+    """What goes to stdout: the report as plain values, some values of it, or else the summary, which prints itself."""
     if as_json:
         from ..report.model import encode
 
         sys.stdout.buffer.write(encode(report()))
-    elif get is not None:
+    elif get:
         from ..report.lookup import look_up
 
-        click.echo(look_up(report(), get))
+        found = report()
+        click.echo("\n".join([look_up(found, key) for key in get]))
     elif not quiet:
         summary()

@@ -63,6 +63,21 @@ def test_a_map_has_no_passes(within: Run) -> None:
     assert (ended.code, "not computed" in ended.complaint) == (2, False)
 
 
+def test_a_line_for_each_key(within: Run) -> None:
+    keys = ("topology.genus", "totals.K", "topology.genus")
+    asked = [word for key in keys for word in ("--get", key)]
+    alone = [within("analyze", CUBE, "--get", key).out for key in keys]
+    together = within("analyze", CUBE, *asked)
+    wrote(together)
+    assert together.out == "".join(alone)
+    lacking = within("analyze", CUBE, *asked, "--get", "totals.k")
+    assert (lacking.code, lacking.out) == (2, "")
+    of_curves = within("curves", DISK, "--get", "curves.0.closed", "--get", "curves.0.writhe")
+    assert of_curves.out.splitlines() == ["true", within("curves", DISK, "--get", "curves.0.writhe").out.strip()]
+    same = within("compare", CUBE, CUBE, "--get", "equal", "--get", "rtol")
+    assert same.out == "".join(within("compare", CUBE, CUBE, "--get", key).out for key in ("equal", "rtol"))
+
+
 def test_a_key_that_one_mesh_lacks(within: Run) -> None:
     """Of several meshes the others go on; of a single one it is wrong usage."""
     ended = within("analyze", CUBE, DISK, "--get", "loops.0.vertices", "-o", "{stem}.json")
