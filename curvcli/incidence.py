@@ -105,7 +105,7 @@ class Incidence:
         if not self.coherent:
             return self.edges.half_edges(np.flatnonzero(self.edges.valence == 1))
         tail, head = ends_of(self.faces, self.stars.rim)
-        return self.stars.rim[np.lexsort([np.maximum(tail, head), np.minimum(tail, head)])].astype(np.int32)
+        return self.stars.rim[np.lexsort([np.maximum(tail, head), np.minimum(tail, head)])]
 
     @cached_property
     def boundary_loop_of(self) -> tuple[int, Index]:
