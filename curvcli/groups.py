@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .once import once
 from .topology import Index
 
 if TYPE_CHECKING:
@@ -104,9 +105,11 @@ class Groups:
 
     def edges(self, surface: Surface) -> Segments:
         """The edges of the surface whose parts these are."""
-        vertex, edges = self.vertices.label, surface.edges
-        label = None if vertex is None else vertex[edges.a]
-        return Segments(label, self.count, len(edges))
+        return once(self, "edges", lambda: self._edges(surface.edges.a))
+
+    def _edges(self, lower_end: Index) -> Segments:
+        vertex = self.vertices.label
+        return Segments(None if vertex is None else vertex[lower_end], self.count, len(lower_end))
 
     def of(self, surface: Surface, element: str) -> Segments:
         """The segments of `vertex`, `edge` or `face` values."""
