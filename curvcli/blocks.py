@@ -147,22 +147,22 @@ def _length(vector: Vector) -> Floats:
     return length
 
 
-def signed_volumes(surface: Surface, label: Index) -> Floats:
-    """(F,) volume of the tetrahedron that each face, as the file winds it, spans with the base point of its group.
+def triple_products(surface: Surface, label: Index) -> Floats:
+    """(F,) six times the volume that each face, as the file winds it, spans with the base point of its group.
 
     label: group of each face; the base is the first corner of the group's first face. The sum over a closed group does
-    not depend on it, but its rounding does.
+    not depend on it, but its rounding does. Integer corners give integers, whose sums are exact; sixths are not.
     """
-    volume, base = np.empty(surface.n_faces), _bases(surface, label)
+    product, base = np.empty(surface.n_faces), _bases(surface, label)
     for block in slices(surface.n_faces):
         t = triangles(surface.xyz, surface.faces[block])
         # With the normal of the face: the product of two corners would have the error of their lengths, not of areas.
-        volume[block] = dot(_from_base(surface, base, label[block], t), t.normal) / 6
-    return volume
+        product[block] = dot(_from_base(surface, base, label[block], t), t.normal)
+    return product
 
 
 def volume_errors(surface: Surface, label: Index, chosen: NDArray[np.integer]) -> Floats:
-    """(n,) what rounding may add to the `signed_volumes` of the chosen faces and to the sum of these."""
+    """(n,) what rounding may add to the volumes that the chosen faces span and to the sum of these."""
     terms, base = np.empty(len(chosen)), _bases(surface, label)
     for block in slices(len(chosen)):
         t = triangles(surface.xyz, surface.faces[chosen[block]])

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arrays import as_components, as_triangles, frozen, with_repeated_corner
-from .blocks import signed_volumes, volume_errors
+from .blocks import triple_products, volume_errors
 from .errors import InputError, Notice
 from .groups import Groups, by_label, whole
 from .incidence import Incidence
@@ -254,9 +254,14 @@ class Surface(Incidence):
 
     @cached_property
     @frozen
+    def triple_products(self) -> NDArray[np.float64]:
+        """(F,) six times the volume that each face, as the file winds it, spans with a point of its component."""
+        return triple_products(self, self.components.face)
+
+    @property
     def face_volumes(self) -> NDArray[np.float64]:
         """(F,) volume of the tetrahedron that each face, as the file winds it, spans with a point of its component."""
-        return signed_volumes(self, self.components.face)
+        return self.triple_products / 6
 
     # ------------------------------------------------------------------ pieces
 

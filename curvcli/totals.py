@@ -25,8 +25,9 @@ def volumes(surface: Surface, groups: Groups) -> Floats:
     if not valid.any():
         return np.full(groups.count, np.nan)
     sign = surface.orientation.face_sign
-    volume = surface.face_volumes if sign is None else surface.face_volumes * sign
-    return np.where(valid, groups.faces.sum(volume), np.nan)
+    sixfold = surface.triple_products if sign is None else surface.triple_products * sign
+    # Divided once, after the sum: a body with integer corners has its integer volume to the last digit.
+    return np.where(valid, groups.faces.sum(sixfold) / 6, np.nan)
 
 
 def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: str = "sum") -> dict[str, Floats]:
