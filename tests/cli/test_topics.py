@@ -84,10 +84,10 @@ def test_python_as_it_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -
     exec("\n".join(lines), {})
 
 
-def test_the_readme_tells_the_same_exit_codes() -> None:
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    part = " ".join(text.partition("## Exit codes")[2].partition("##")[0].split())
-    assert [int(code) for code in re.findall(r"(?:^|· )(\d+) ", part)] == list(EXIT_CODES)
+def test_the_formats_page_lists_every_exit_code() -> None:
+    text = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
+    part = text.partition("## Exit codes")[2].partition("##")[0]
+    assert [int(code) for code in re.findall(r"^\| (\d+) \|", part, re.MULTILINE)] == list(EXIT_CODES)
 
 
 # ---------------------------------------------------------------------------- schemas
