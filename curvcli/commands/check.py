@@ -13,7 +13,6 @@ from ..errors import CurvcliError, LackingError
 from ..exits import exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
 from ..memory import ran_out
-from ..plurals import counted
 from . import options
 from .talk import internal, say
 from .wanted import stdin_once
@@ -185,15 +184,20 @@ class Run:
         return _writer(self.format, self.verbose)(report)
 
     def tell(self, report: CheckReport) -> None:
-        """What failed, on stderr, while the report is in a file."""
-        from ..report.check import sentence
+        """What failed, and the warnings, on stderr, while the report is in a file."""
+        from ..report.check_lines import all_failures, warning, warnings
 
-        failed = [sentence(mesh, one) for mesh in report.meshes for one in mesh.outcomes if one.status == "fail"]
-        if not self.quiet:
-            for line in failed[:_TOLD]:
-                say(line)
-            if len(failed) > _TOLD:
-                say(f"{counted(len(failed) - _TOLD, 'more failure is', 'more failures are')} in {self.output}")
+        if self.quiet:
+            return
+        # A mesh that could not be read has been told already.
+        failed, others = all_failures([mesh for mesh in report.meshes if mesh.status != "error"], most=_TOLD)
+        for line in failed:
+            say(line.text)
+        if others:
+            say(f"{others}; {self.output} has all of them")
+        told, _ = warnings([mesh for mesh in report.meshes if mesh.status == "fail"], _TOLD)
+        for mesh, remark in told:
+            say(f"warning: {warning(mesh, remark)}")
 
 
 def _writer(report_format: str, verbose: int) -> Callable[[CheckReport], bytes]:

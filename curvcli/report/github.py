@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 
 from ..printable import shown
-from .check import CheckReport, sentence
+from .check import CheckReport
+from .check_lines import all_failures, warning, warnings
 from .check_text import summary
 
 # A workflow command ends with its line; in properties the colon and the comma have a meaning too.
@@ -14,14 +15,22 @@ _PROPERTY = _DATA | str.maketrans({":": "%3A", ",": "%2C"})
 
 
 def write_github(report: CheckReport) -> bytes:
-    """One `::error` for each failure, and a line that sums up."""
-    lines = []
-    for mesh in report.meshes:
-        for outcome in mesh.trouble:
-            properties = {"title": f"curvcli {outcome.label}"}
-            if mesh.path != "-":
-                properties = {"file": os.path.normpath(mesh.path).replace(os.sep, "/"), **properties}
-            named = ",".join(f"{key}={shown(value).translate(_PROPERTY)}" for key, value in properties.items())
-            lines.append(f"::error {named}::{sentence(mesh, outcome).translate(_DATA)}")
+    """An `::error` for each failure, the first of each check and a count of the others; a `::warning` for each warning
+    that the text report shows; a line that sums up."""
+    failed, others = all_failures(report.meshes)
+    lines = [_command("error", f"curvcli {one.outcome.label}", one.text, one.mesh.path) for one in failed]
+    if others:
+        lines.append(_command("error", "curvcli", others))
+    told, _ = warnings(report.meshes)
+    lines += [_command("warning", f"curvcli {one.code}", warning(mesh, one), mesh.path) for mesh, one in told]
     lines.append(f"curvcli: {summary(report)}")
     return ("\n".join(lines) + "\n").encode()
+
+
+def _command(kind: str, title: str, message: str, path: str = "-") -> str:
+    """One workflow command, at a file unless the mesh is a stream."""
+    properties = {"title": title}
+    if path != "-":
+        properties = {"file": os.path.normpath(path).replace(os.sep, "/"), **properties}
+    named = ",".join(f"{key}={shown(value).translate(_PROPERTY)}" for key, value in properties.items())
+    return f"::{kind} {named}::{message.translate(_DATA)}"
