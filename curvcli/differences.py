@@ -28,6 +28,8 @@ ROOTS = frozenset({"kappa_1", "kappa_2", "shape_index", "curvedness"})
 # Of a loop: its measures by length exponent; its other entries are compared as they are.
 _LOOP = {"length": 1, "total_curvature": 0, "sum_kappa_g": 0, "vector_area": 2, "force": 1, "torque": 2}
 _LOOP |= {"holonomy": 0, "writhe": 0, "twist": 0}
+# What rounding may have done to other entries says nothing of the curve.
+_BOUNDS = ("writhe_error", "linking_error")
 
 Key = tuple[str, ...]
 Size = TypeVar("Size", float, NDArray[np.float64])
@@ -149,6 +151,8 @@ def leaves(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
     yield ("loops", "count"), Leaf(len(report["loops"]))
     for index, loop in enumerate(report["loops"]):
         for name, value in loop.items():
+            if name in _BOUNDS:
+                continue
             size = power(loop.get("length") or 0.0, _LOOP.get(name, 0))
             leaf = Leaf(value, size, 256 * EPSILON * size) if name in _LOOP else Leaf(value)
             yield ("loops", str(index), name), leaf

@@ -71,15 +71,33 @@ class Darboux:
         star = 1 if sign is None else sign.ravel()[self.boundary.corner]
         vector = vector * np.where(self.boundary.forward, star, -star)
         vector = np.where(dot(vector, vector) > (LOST * area) ** 2, vector, np.nan)
-        tangent = unit(curves.tangent[:, curves.preceding] + curves.tangent)
-        tangent[:, self._turning.reversed | (beside < 0) | ~curves.inner] = np.nan
+        vector[:, beside < 0] = np.nan
+        tangent = self._vertex_tangent
         return unit(vector - tangent * dot(vector, tangent))
+
+    @cached_property
+    def _vertex_tangent(self) -> Floats:
+        """(3, n) unit T half-way between the edges at each vertex; NaN where the curve ends or turns back."""
+        curves = self.boundary.curves
+        tangent = unit(curves.tangent[:, curves.preceding] + curves.tangent)
+        tangent[:, self._turning.reversed | ~curves.inner] = np.nan
+        return tangent
 
     @cached_property
     def kappa_n(self) -> Floats:
         """(n,) normal curvature, −ν · 2 sin(ψ/2) N: a measure, positive where the surface is convex along the curve, as
         κ₁ and κ₂ are; NaN where ν is."""
         return 0.0 - dot(self.vertex_nu, self._turning.vector)
+
+    @cached_property
+    def kappa_eta(self) -> Floats:
+        """(n,) η · 2 sin(ψ/2) N, the component of the curvature vector along η = T × ν, out of the surface: a measure,
+        with which T′ − T = −kappa_n ν + kappa_eta η and kappa_n² + kappa_eta² = (2 sin(ψ/2))²; NaN where ν is.
+
+        The angle kappa_g, which closes Gauss–Bonnet, does not close this: where the surface is smooth it tends to
+        −kappa_eta, positive where the curve bends into the surface.
+        """
+        return dot(cross(self._vertex_tangent, self.vertex_nu), self._turning.vector)
 
     @cached_property
     def _fans(self) -> tuple[Floats, Floats, Floats]:

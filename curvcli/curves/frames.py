@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..blocks import cross, dot
+from ..blocks import EPSILON, cross, dot
 from .polygon import Floats, Mask
 from .turning import Turning
 
@@ -132,6 +132,19 @@ def twist(turning: Turning, field: Floats) -> Floats:
     angle = transport_angle(turning, field)
     known = defined_round(turning) & (curves.sum(np.isnan(angle)) == 0)
     return np.where(known, curves.sum(angle), np.nan)
+
+
+def twist_error(turning: Turning, field: Floats) -> Floats:
+    """(m,) a bound of the rounding error of `twist`: a turn more for each vertex at which the field turns by π to
+    rounding, so that it may have gone either way round; NaN where the twist is."""
+    curves = turning.curves
+    angle = transport_angle(turning, field)
+    # The rotation across a vertex has no axis where the curve turns back; its error grows as 1 / cos(ψ/2).
+    steep = 1 + 1 / np.cos(np.minimum(turning.angle, np.pi) / 2)
+    either = np.pi - np.abs(angle) <= 16 * EPSILON * steep
+    bound = (16 + np.log2(np.maximum(curves.sizes, 1))) * EPSILON * curves.sum(steep)
+    known = defined_round(turning) & (curves.sum(np.isnan(angle)) == 0)
+    return np.where(known, bound + 2 * np.pi * curves.sum(either), np.nan)
 
 
 def _principal(angle: Floats) -> Floats:

@@ -87,7 +87,8 @@ def _identities(
             empty,
             open_,
             (~defined_round(turning), back[1]),
-            (np.isnan(turns), "the writhe was not computed"),
+            (np.isnan(error), "the writhe was not computed"),
+            (np.isnan(turns), "the writhe is undefined: the bound of its error exceeds a quarter of a turn"),
         ],
         "the holonomy of the parallel frame is 2π · writhe up to whole turns",
     )

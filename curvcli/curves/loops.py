@@ -11,10 +11,10 @@ from ..once import once
 from ..surface import Surface
 from .boundary import Boundary, boundary_loops
 from .darboux import Darboux
-from .frames import Bishop, twist
+from .frames import Bishop, twist, twist_error
 from .polygon import Curves, Floats, Mask, scaled
 from .turning import Turning
-from .writhe import writhe
+from .writhe import UNSURE, writhe
 
 LOOP_WRITHE_EDGES = 2_000
 """Size of the double sums that a table of loops does unasked: a fraction of a second."""
@@ -32,7 +32,8 @@ def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) 
     vector_area_*: ½ Σ a × b, closed curves only. force_*: Σ η|e|, what the surface pulls with along the curve.
     torque_*: Σ m × η|e| about the origin. holonomy: of the parallel frame, ≡ 2π · writhe (mod 2π). writhe: in turns,
     where the double sums are within max_writhe (see `writhe`). twist: of the surface along the curve, radians.
-    linking: writhe + twist / 2π, the number of times the curve links itself pushed along ν.
+    linking: writhe + twist / 2π, the number of times the curve links itself pushed along ν. writhe_error,
+    linking_error: bounds of their rounding errors, in turns; a number whose bound exceeds ¼ is undefined.
 
     On patches without an orientation a curve's direction, and with it the sign of its vector area, is that of the file
     at its lowest edge; the rest does not depend on it. Order and directions: see `boundary_loops`.
@@ -42,8 +43,9 @@ def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) 
     given = boundary.curves
     distinct, kept = given.distinct()
     turning, darboux = Turning(distinct), Darboux(boundary)
-    turns, _ = writhe(distinct, max_writhe)
-    turned = twist(turning, darboux.nu[:, kept])
+    turns, error = writhe(distinct, max_writhe)
+    nu = darboux.nu[:, kept]
+    turned = twist(turning, nu)
     table: dict[str, Any] = {
         "loop": np.arange(len(given), dtype=np.int32),
         "component": boundary.component.astype(np.int32),
@@ -59,8 +61,9 @@ def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) 
     table |= {
         "holonomy": Bishop(turning).holonomy,
         "writhe": turns,
+        "writhe_error": error,
         "twist": turned,
-        "linking": linking(turns, turned),
+        **linking(turns, error, turned, twist_error(turning, nu)),
     }
     return table
 
@@ -70,10 +73,15 @@ def components(name: str, vector: Floats) -> dict[str, Floats]:
     return {f"{name}_{axis}": component + 0.0 for axis, component in zip("xyz", vector, strict=True)}
 
 
-def linking(turns: Floats, turned: Floats) -> Any:
-    """(m,) writhe + twist / 2π, the integer that it is; masked where one of them is undefined."""
-    number = turns + turned / (2 * np.pi)
-    return np.ma.masked_array(np.rint(np.nan_to_num(number)).astype(np.int32), np.isnan(number))
+def linking(turns: Floats, turns_error: Floats, turned: Floats, turned_error: Floats) -> dict[str, Any]:
+    """(m,) `linking`, writhe + twist / 2π, the integer that it is, and `linking_error`, the bound of their errors in
+    turns; masked where one of the two is undefined and where the bound exceeds a quarter."""
+    number, error = turns + turned / (2 * np.pi), turns_error + turned_error / (2 * np.pi)
+    unknown = np.isnan(number) | ~(error <= UNSURE)
+    return {
+        "linking": np.ma.masked_array(np.rint(np.where(unknown, 0.0, number)).astype(np.int32), unknown),
+        "linking_error": error,
+    }
 
 
 def complete_sum(curves: Curves, values: Floats, where: Mask | None = None) -> Floats:

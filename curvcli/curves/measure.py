@@ -11,13 +11,13 @@ from ..errors import Notice
 from ..loading.model import Labels
 from .collect import CurveSet, curve_notices
 from .darboux import Darboux
-from .frames import Bishop, Frenet, twist
+from .frames import Bishop, Frenet, twist, twist_error
 from .identities import Identity, identities
 from .loops import complete_sum, components, linking, pull, vector_area
 from .plane import PlaneCurves, plane_curves
 from .polygon import Floats
 from .turning import Turning
-from .writhe import MAX_EDGES, within, writhe
+from .writhe import MAX_EDGES, UNSURE, within, writhe
 
 
 class CurveMeasures:
@@ -52,7 +52,14 @@ class CurveMeasures:
         repeated = np.delete(vertex, self.kept)
         back = vertex[self.kept[self.turning.reversed]]
         refused = int(np.count_nonzero(~within(self.distinct.edges, self.max_writhe)))
-        return curve_notices(self.found, repeated, back, refused, self.max_writhe)
+        unsure = Notice.at(
+            "writhe_undefined",
+            np.flatnonzero(self.writhe[1] > UNSURE),
+            "[curve that comes|curves that come] so near to crossing [itself|themselves] that rounding decides the writhe",
+            "`writhe_error` bounds the error in turns; the writhe jumps by two where a curve passes through itself",
+        )
+        told = curve_notices(self.found, repeated, back, refused, self.max_writhe)
+        return [*told, unsure] if unsure.count else told
 
     def _boundary_first(self, values: Floats | None, like: int) -> Floats:
         """Values of the boundary curves (or their vertices), then NaN for the polylines."""
@@ -73,7 +80,7 @@ class CurveMeasures:
         torsion = self.frenet.torsion
         middle = distinct.inner & distinct.inner[distinct.following]
         boundary, darboux = found.boundary, self.darboux
-        turned = self._twist()
+        turned, turned_error = self._twist()
         table: dict[str, Any] = {
             "curve": np.arange(count, dtype=np.int32),
             "kind": Labels((np.arange(count) >= found.boundaries).astype(np.int32), ("boundary", "polyline")),
@@ -93,10 +100,11 @@ class CurveMeasures:
             **components("vector_area", vector_area(curves)),
             "holonomy": self.bishop.holonomy,
             "writhe": self.writhe[0],
+            "writhe_error": self.writhe[1],
             "sum_kappa_g": self._boundary_first(self._darboux_sum("kappa_g"), count),
             "sum_kappa_n": self._boundary_first(self._darboux_sum("kappa_n"), count),
             "twist": turned,
-            "linking": linking(self.writhe[0], turned),
+            **linking(*self.writhe, turned, turned_error),
         }
         force, torque = (None, None) if boundary is None or darboux is None else pull(boundary, darboux)
         for name, vector in (("force", force), ("torque", torque)):
@@ -123,10 +131,10 @@ class CurveMeasures:
             return None
         return complete_sum(self.found.boundary.curves, getattr(self.darboux, column))
 
-    def _twist(self) -> Floats:
-        """(m,) twist of the surface along its boundary curves."""
+    def _twist(self) -> tuple[Floats, Floats]:
+        """(m,) twist of the surface along its boundary curves, and the bound of its error."""
         normal = self._vectors(None if self.darboux is None else self.darboux.nu, self.found.curves.size)
-        return twist(self.turning, normal[:, self.kept])
+        return twist(self.turning, normal[:, self.kept]), twist_error(self.turning, normal[:, self.kept])
 
     # ------------------------------------------------------------------ a row per vertex
 
@@ -139,7 +147,8 @@ class CurveMeasures:
     def points(self) -> dict[str, Any]:
         """One row per vertex of each curve; what belongs to an edge stands in the row of the vertex it leaves.
 
-        At vertices: turning ψ, sin2 = 2 sin(ψ/2), tan2 = 2 tan(ψ/2), kappa_g, kappa_n, Frenet normal and binormal.
+        At vertices: turning ψ, sin2 = 2 sin(ψ/2), tan2 = 2 tan(ψ/2), Frenet normal and binormal; on boundary curves
+        the angle kappa_g = π − Σθ and the components of the curvature vector T′ − T = −kappa_n ν + kappa_eta η.
         On edges: length, torsion, tangent, Bishop's bishop_u and bishop_v, Darboux's nu and eta.
         """
         curves, turning, frenet, bishop = self.found.curves, self.turning, self.frenet, self.bishop
@@ -162,6 +171,7 @@ class CurveMeasures:
             "torsion": self._rows(frenet.torsion),
             "kappa_g": self._boundary_first(None if darboux is None else darboux.kappa_g, size),
             "kappa_n": self._boundary_first(None if darboux is None else darboux.kappa_n, size),
+            "kappa_eta": self._boundary_first(None if darboux is None else darboux.kappa_eta, size),
             **components("tangent", tangent),
             **components("normal", self._rows(frenet.normal)),
             **components("binormal", self._rows(frenet.binormal)),

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import EPSILON
 from ..errors import UsageError
+from .plane import plane_curves
 from .polygon import Curves, Floats, Rows
+from .turning import Turning
 
 MAX_EDGES = 20_000
 """Edges of the largest double sum that is done unless more is asked for: some ten seconds."""
+
+UNSURE = 0.25
+"""Turns: where the bound of the error is larger, no value is given, and no integer that follows from one."""
 
 # A block of pairs whose temporaries stay in the second-level cache.
 _ROWS, _COLUMNS = 16, 1024
@@ -20,13 +28,13 @@ _TOGETHER = 1 << 15
 
 
 def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, Floats]:
-    """Writhe of each curve in turns, and a bound of its rounding error.
+    """Writhe of each curve in turns, and a bound of its rounding error; NaN where the bound exceeds a quarter.
 
     (1/4π) ∬ (T × T′)·(x − x′)/|x − x′|³: the number of crossings with their signs, averaged over all directions of
     view. For two edges the integral is the solid angle of the directions between them, a spherical quadrilateral,
     taken as two triangles by atan2 (Banchoff; Klenin–Langowski by another formula). Changes sign under reflection.
-    Where two edges meet it jumps by two as the one passes through the other, and half-way between is what they add:
-    nothing, as all of a plane curve.
+    As one edge passes through another it jumps by two. Half-way between is what two edges add that end in one point,
+    and all edges of a curve that is plane to rounding: nothing. Other edges that meet leave an error of one turn.
 
     curves: in E³, open or closed, without repeated points. max_edges: the double sums are refused beyond this size:
     curves are taken from the smallest up while √Σ edges² ≤ max_edges; the others get NaN. None: no limit.
@@ -38,8 +46,7 @@ def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, F
     chosen = within(curves.edges, max_edges)
     turns, error = np.full(len(curves), np.nan), np.full(len(curves), np.nan)
     xyz, _ = curves.local
-    # Two edges always lie in a plane.
-    flat = chosen & (curves.edges < 3)
+    flat = chosen & plane_curves(Turning(curves)).plane
     turns[flat] = error[flat] = 0.0
     chosen &= ~flat
     for size in np.unique(curves.edges[chosen & (curves.edges <= _SMALL)]).tolist():
@@ -51,7 +58,7 @@ def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, F
     for one in np.flatnonzero(chosen & (curves.edges > _SMALL)):
         corners = _corners(curves, xyz, np.array([one]), int(curves.edges[one]))[:, 0]
         turns[one], error[one] = _large(corners, bool(curves.closed[one]))
-    return turns, error
+    return np.where(error > UNSURE, np.nan, turns), error
 
 
 def within(edges: Rows, max_edges: int | None) -> NDArray[np.bool_]:
@@ -75,42 +82,60 @@ def _corners(curves: Curves, xyz: Floats, chosen: Rows, edges: int) -> Floats:
 def _small(corners: Floats) -> tuple[Floats, Floats]:
     """Writhe of m curves of k edges, corners (3, m, k + 1)."""
     k = corners.shape[2] - 1
-    angle, error = _pairs(corners, corners)
-    apart = np.triu(np.ones((k, k), bool), 2)
+    pairs = _pairs(corners, corners)
+    apart = np.broadcast_to(np.triu(np.ones((k, k), bool), 2), pairs.angle.shape).copy()
     # The first and the last edge meet where the curve is closed.
-    meet = (corners[:, :, 0] == corners[:, :, -1]).all(axis=0)
-    angle[meet, 0, k - 1] = error[meet, 0, k - 1] = 0.0
-    total, bound = (np.where(apart, each, 0.0).sum(axis=(1, 2)) for each in (angle, error))
-    return total / (2 * np.pi), (16 + np.log2(k * k)) * EPSILON * bound / (2 * np.pi)
+    apart[(corners[:, :, 0] == corners[:, :, -1]).all(axis=0), 0, k - 1] = False
+    total, bound, crossings = pairs.summed(apart, axis=(1, 2))
+    return total / (2 * np.pi), (16 + np.log2(k * k)) * EPSILON * bound / (2 * np.pi) + crossings
 
 
 def _large(corners: Floats, closed: bool) -> tuple[float, float]:
     """Writhe of one curve of k edges, corners (3, k + 1), block by block of the pairs i + 1 < j."""
     k = corners.shape[1] - 1
-    sums: list[float] = []
-    bounds: list[float] = []
+    sums: list[tuple[Any, ...]] = []
     for i in range(0, k, _ROWS):
         rows = corners[:, None, i : min(i + _ROWS, k) + 1]
         for j in range(i, k, _COLUMNS):
             columns = corners[:, None, j : min(j + _COLUMNS, k) + 1]
-            angle, error = _pairs(rows, columns)
+            pairs, apart = _pairs(rows, columns), None
             if j < i + _ROWS + 2:
-                apart = np.arange(j, j + angle.shape[2]) > np.arange(i, i + angle.shape[1])[:, None] + 1
-                angle, error = np.where(apart, angle, 0.0), np.where(apart, error, 0.0)
-            if closed and i == 0 and j + angle.shape[2] == k:
-                angle[0, 0, -1] = error[0, 0, -1] = 0.0
-            sums.append(float(angle.sum()))
-            bounds.append(float(error.sum()))
-    bound = (16 + np.log2(k * k)) * EPSILON * float(np.sum(bounds))
-    return float(np.sum(sums)) / (2 * np.pi), bound / (2 * np.pi)
+                apart = np.arange(j, j + columns.shape[2] - 1) > np.arange(i, i + rows.shape[2] - 1)[:, None] + 1
+            if closed and i == 0 and j + columns.shape[2] - 1 == k:
+                apart = np.ones(pairs.angle.shape[1:], bool) if apart is None else apart
+                apart[0, -1] = False
+            sums.append(pairs.summed(apart))
+    total, bound, crossings = np.sum(sums, axis=0).tolist()
+    return total / (2 * np.pi), (16 + np.log2(k * k)) * EPSILON * bound / (2 * np.pi) + crossings
 
 
-def _pairs(one: Floats, other: Floats) -> tuple[Floats, Floats]:
-    """(m, r, c) signed solid angle of the directions from each edge of `one` to each of `other`, and its condition.
+@dataclass(frozen=True)
+class _Pairs:
+    """Pairs of edges, (m, r, c).
+
+    angle: signed solid angle of the directions from the one edge to the other. condition: how much the angle changes
+    per relative change of its terms. crossing: pairs that meet, to rounding, elsewhere than in a common end, so that
+    the sign of their angle of 2π is lost; None where no pair does.
+    """
+
+    angle: Floats
+    condition: Floats
+    crossing: NDArray[np.bool_] | None
+
+    def summed(self, apart: NDArray[np.bool_] | None, axis: tuple[int, ...] | None = None) -> tuple[Any, ...]:
+        """Sums of the angles, of the conditions and of the crossings, over the pairs that are apart on the curve."""
+        parts = (self.angle, self.condition, np.zeros(1) if self.crossing is None else self.crossing)
+        if apart is None:
+            return tuple(part.sum(axis) for part in parts)
+        return tuple(np.where(apart, part, 0).sum(axis) for part in parts)
+
+
+def _pairs(one: Floats, other: Floats) -> _Pairs:
+    """Signed solid angle of the directions from each edge of `one` to each of `other`, and what is known of it.
 
     one: (3, m, r + 1) corners, other: (3, m, c + 1). The sum of the two triangles' half-angles is the argument of
     (D₁ + iV)(D₂ + iV), V the triple product of the quadrilateral, D = abc + (a·b)c + (b·c)a + (c·a)b (Van Oosterom and
-    Strackee). The condition is how much the angle changes per relative change of its terms.
+    Strackee).
     """
     span = [q[:, None, :] - p[:, :, None] for p, q in zip(one, other, strict=True)]
     e = [np.diff(p)[:, :, None] for p in one]
@@ -126,12 +151,17 @@ def _pairs(one: Floats, other: Floats) -> tuple[Floats, Floats]:
     second = (ac + across) * d + below[:, :, :-1] * c + beside[:, 1:] * a
     x, y, z = (each[:, :-1, :-1] for each in span)
     volume = x * (e[2] * f[1] - e[1] * f[2]) + y * (e[0] * f[2] - e[2] * f[0]) + z * (e[1] * f[0] - e[0] * f[1])
-    angle = 2 * np.arctan2(volume * (first + second), first * second - volume * volume)
+    product = first * second
+    # Directions between points of two edges lie in a plane beside the origin: the angle is less than 2π, as wide as a
+    # hemisphere, and D₁ + D₂ is positive but for rounding, which would turn an angle near 2π into one near −2π.
+    angle = 2 * np.arctan2(volume * np.maximum(first + second, 0.0), product - volume * volume)
     length = np.sqrt(e[0] ** 2 + e[1] ** 2 + e[2] ** 2) * np.sqrt(f[0] ** 2 + f[1] ** 2 + f[2] ** 2)
     # V is known to about ε |a||e||f|; below that it has no sign, and where edges meet the angle is that of its sign.
-    angle[np.abs(volume) <= 8 * EPSILON * a * length] = 0.0
+    lost = np.abs(volume) <= 8 * EPSILON * a * length
+    angle[lost] = 0.0
+    crossing = lost & (product <= 0) & (np.minimum(ac, b * d) > 0) if lost.any() else None
     size = np.sqrt(np.minimum(first * first, second * second) + volume * volume)
     with np.errstate(divide="ignore", invalid="ignore"):
         # V is known to that and D to about 8 ε |a||b||c|; D moves the angle by V / |D + iV| of that.
         condition = a * (length + 8 * c * (b + d) * np.abs(volume) / size) / size
-    return angle, np.where(size > 0, condition, 0.0)
+    return _Pairs(angle, np.where(size > 0, condition, 0.0), crossing)

@@ -27,7 +27,8 @@ class CurveRow(msgspec.Struct):
     proves that the curve is no knot if it does not cross itself; null proves nothing. tangent_change: T(q) − T(p).
     signed_total and turning_number: of plane closed curves. holonomy ≡ 2π · writhe (mod 2π). Boundary curves only:
     component, sum_kappa_g, sum_kappa_n, force Σ η|e|, torque Σ m × η|e|, twist of the surface along the curve, and
-    linking, how often the curve links itself pushed off along ν.
+    linking, how often the curve links itself pushed off along ν. writhe_error and linking_error bound the rounding
+    errors, in turns: writhe and linking are null where theirs exceeds ¼.
     """
 
     curve: int
@@ -48,10 +49,12 @@ class CurveRow(msgspec.Struct):
     vector_area: Vector
     holonomy: float | None
     writhe: float | None
+    writhe_error: float | None
     sum_kappa_g: float | None
     sum_kappa_n: float | None
     twist: float | None
     linking: int | None
+    linking_error: float | None
     force: Vector
     torque: Vector
     repeated_points: int

@@ -89,6 +89,51 @@ def test_linking_counts_the_half_turns_of_a_strip() -> None:
     assert loop_table(strip.moved(strip.points * [1, 1, -1]).surface())["linking"][0] == -number
 
 
+@pytest.mark.parametrize("name", ["mobius", "grid", "cap"])
+def test_the_bound_of_the_linking_number_is_small(name: str) -> None:
+    table = loop_table(meshes.zoo(name).surface())
+    assert (table["writhe_error"] < 1e-10).all()
+    assert (table["linking_error"] > table["writhe_error"]).all()
+    assert (table["linking_error"] < 1e-10).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_linking_number_where_a_surface_folds_flat_at_its_boundary(seed: int) -> None:
+    """A kite folded along its middle: ν turns by π at both ends of the fold, this way or that."""
+    turned = meshes.rotation(seed)
+    kite = mesh(np.array([[0, 0, 0], [1, 1, 0], [3, 0, 0], [1, 2.0, 0]]) @ turned.T, [[0, 1, 2], [0, 2, 3]])
+    table = loop_table(kite.surface())
+    assert np.ma.getmaskarray(table["linking"])[0]
+    assert table["linking_error"][0] > 0.25
+    assert table["writhe"][0] == 0
+    lifted = kite.moved(kite.points + np.outer([0, 0, 0, 1], turned @ [0, 0, 1]))
+    assert loop_table(lifted.surface())["linking"][0] == 0
+
+
+@pytest.mark.parametrize("name", ["mobius", "grid", "cap", "with_flat_face"])
+def test_the_curvature_vector_in_the_darboux_frame(name: str) -> None:
+    """T′ − T = −κ_n ν + κ_η η at every vertex of the boundary where ν has a direction."""
+    boundary = boundary_loops(meshes.zoo(name).surface())
+    darboux, turning = Darboux(boundary), Turning(boundary.curves)
+    tangent = boundary.curves.tangent[:, boundary.curves.preceding] + boundary.curves.tangent
+    eta = np.cross(tangent / np.linalg.norm(tangent, axis=0), darboux.vertex_nu, axis=0)
+    known = ~np.isnan(darboux.vertex_nu[0])
+    assert known.mean() > 0.9
+    closed = -darboux.kappa_n * darboux.vertex_nu + darboux.kappa_eta * eta
+    np.testing.assert_allclose(closed[:, known], turning.vector[:, known], atol=1e-14)
+    np.testing.assert_allclose(np.hypot(darboux.kappa_n, darboux.kappa_eta)[known], turning.sin2[known], atol=1e-14)
+    assert np.isnan(darboux.kappa_eta[~known]).all()
+
+
+def test_the_angle_and_the_component_on_a_flat_disk() -> None:
+    """κ_g is the angle ψ, −κ_η its 2 sin(ψ/2): the one has 2π for its sum, the other closes the curvature vector."""
+    boundary = boundary_loops(of_sample("disk", size=40).surface())
+    darboux, turning = Darboux(boundary), Turning(boundary.curves)
+    np.testing.assert_allclose(darboux.kappa_g, turning.angle, atol=1e-14)
+    np.testing.assert_allclose(-darboux.kappa_eta, 2 * np.sin(turning.angle / 2), atol=1e-14)
+    np.testing.assert_allclose(darboux.kappa_n, 0, atol=1e-14)
+
+
 def test_darboux_frame_of_a_hemisphere() -> None:
     dome = of_sample("hemisphere", size=4000)
     boundary = boundary_loops(dome.surface())

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
 from curvcli.curves import Curve, Curves, writhe
 from curvcli.curves.writhe import within
 from curvcli.errors import UsageError
-from tests.curves.shapes import gauss_integral, helix, random_polygon, regular, rotation, trefoil
+from tests.curves.conftest import Cli
+from tests.curves.shapes import figure_eight, gauss_integral, helix, random_polygon, regular, rotation, trefoil
 
 
 @pytest.mark.parametrize("closed", [True, False])
@@ -104,3 +108,71 @@ def test_double_sums_are_refused_beyond_their_size() -> None:
     assert within(np.array([30, 40, 3, 500]), 50).tolist() == [True, False, True, False]
     assert within(np.array([30, 40]), 50).tolist() == [True, True]
     assert within(np.array([30, 500]), None).all()
+
+
+def exact_writhe(points: np.ndarray) -> mp.mpf:
+    """Writhe in turns of a closed polygon, its coordinates taken as exact, in 60 digits."""
+    with mp.workdps(60):
+        corners = [mp.matrix([mp.mpf(float(x)) for x in point]) for point in points]
+        n, total = len(corners), mp.mpf(0)
+        for i in range(n):
+            for j in range(i + 2, n - (i == 0)):
+                p, q, r, s = (corners[k % n] for k in (i, i + 1, j, j + 1))
+                a, b, c, d = r - p, s - p, s - q, r - q
+                total -= solid_angle(a, b, c) + solid_angle(a, c, d)
+        return total / (2 * mp.pi)
+
+
+def solid_angle(a: mp.matrix, b: mp.matrix, c: mp.matrix) -> mp.mpf:
+    def dot(x: mp.matrix, y: mp.matrix) -> mp.mpf:
+        return mp.fsum(x[k] * y[k] for k in range(3))
+
+    volume = mp.det(mp.matrix([list(a), list(b), list(c)]))
+    one, two, three = (mp.sqrt(dot(x, x)) for x in (a, b, c))
+    across = one * two * three + dot(a, b) * three + dot(b, c) * one + dot(c, a) * two
+    return mp.mpf(0) if volume == 0 else 2 * mp.atan2(volume, across)
+
+
+def crossing(gap: float, seed: int) -> np.ndarray:
+    """A closed hexagon, two edges of which pass each other at a distance, at equal heights or not, turned somehow."""
+    random = np.random.default_rng(seed)
+    up, down = gap / 2, -gap / 2
+    hexagon = np.array([[-1, -1, up], [1, 1, up], [3, 0, 2.0], [1, -1, down], [-1, 1, down], [-3, 0, 1.0]])
+    if seed % 2:
+        hexagon[[0, 1, 3, 4], :2] *= random.uniform(0.2, 3, (4, 1))
+    return hexagon @ rotation(seed).T
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-18])
+def test_the_bound_covers_the_error_and_no_value_is_given_beyond_a_quarter(gap: float) -> None:
+    for seed in range(12):
+        points = crossing(gap, seed)
+        turns, error = writhe(Curves(points.T.copy(), np.array([0, 6]), np.array([True])))
+        if np.isnan(turns[0]):
+            assert error[0] > 0.25
+            assert gap < 1e-12
+        else:
+            assert abs(turns[0] - exact_writhe(points)) <= error[0] <= 0.25
+            assert gap > 1e-16
+
+
+@pytest.mark.parametrize("n", [8, 40, 64, 65, 200])
+def test_plane_curves_that_cross_themselves_have_none_in_any_plane(n: int) -> None:
+    for seed in range(4):
+        for offset in (0, 30):
+            turned = figure_eight(n) @ rotation(seed).T + offset
+            turns, error = writhe(Curves(turned.T.copy(), np.array([0, n]), np.array([True])))
+            assert (turns[0], error[0]) == (0, 0)
+
+
+def test_an_undefined_writhe_is_null_and_said(cli: Cli, tmp_path: Path) -> None:
+    for gap, defined in ((0.5, True), (1e-17, False)):
+        path = tmp_path / f"{gap}.obj"
+        rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in crossing(gap, 3).tolist()]
+        path.write_text("\n".join([*rows, "l 1 2 3 4 5 6 1"]) + "\n")
+        report = cli.told(path)
+        assert (report["curves"][0]["writhe"] is not None) == defined
+        assert (report["curves"][0]["writhe_error"] < 0.25) == defined
+        assert ("writhe_undefined" in [warning["code"] for warning in report["warnings"]]) != defined
+        holonomy = next(check for check in report["checks"] if check["name"] == "holonomy")
+        assert holonomy["status"] == ("pass" if defined else "not_applicable")
