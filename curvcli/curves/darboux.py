@@ -63,7 +63,6 @@ class Darboux:
     @cached_property
     def vertex_nu(self) -> Floats:
         """(3, n) unit normal ν of the surface at each vertex, perpendicular to T there; NaN where there is none."""
-        curves = self.boundary.curves
         _, area, vector = self._fans
         # The area vector of a fan has the orientation of its star; along the curve that of the face at its edge counts.
         beside = self.boundary.half_edge

@@ -55,7 +55,7 @@ class CurveMeasures:
         unsure = Notice.at(
             "writhe_undefined",
             np.flatnonzero(self.writhe[1] > UNSURE),
-            "[curve that comes|curves that come] so near to crossing [itself|themselves] that rounding decides the writhe",
+            "[curve comes|curves come] so near to crossing [itself|themselves] that rounding decides the writhe",
             "`writhe_error` bounds the error in turns; the writhe jumps by two where a curve passes through itself",
         )
         told = curve_notices(self.found, repeated, back, refused, self.max_writhe)
