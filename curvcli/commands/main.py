@@ -7,19 +7,19 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
-from typing import Any, NoReturn, cast
+from typing import Any, NoReturn
 
 import click
 
 from .._version import __version__
 from ..errors import CurvcliError, UsageError
-from ..exits import INTERNAL, INTERRUPTED, OK, OUTPUT, USAGE, exit_code
+from ..exits import FAILED_CHECK, INPUT, INTERNAL, INTERRUPTED, OK, USAGE, exit_code
 from ..memory import NUMPY, ran_out, require
 from .allocation import keep_memory
 from .config import META, blamed, configure
 from .deferred import defer_imports
 from .signals import Ending, Handler
-from .streams import complete, refused, settle
+from .streams import complete, settle
 from .talk import internal, say
 
 COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample", "help", "completion")
@@ -146,7 +146,9 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
         ending.too_late()
         code = explain(error) if ending.number is None else interrupted(ending)
     ending.too_late()
-    settle()
+    refusal = settle()
+    if refusal is not None and code in (OK, FAILED_CHECK, INPUT):  # nobody has told it
+        code = explain(refusal)
     sys.exit(code)
 
 
@@ -161,9 +163,8 @@ def explain(error: BaseException) -> int:
     match error:
         case click.exceptions.Exit():
             return error.exit_code
-        case BrokenPipeError() | SystemExit():
-            # Whoever read our output has seen enough (click makes a SystemExit of it, and nothing else here does).
-            return OK
+        case SystemExit(code=None | int() as code):  # click ends so when it has completed a line of the shell
+            return code or OK
         case click.exceptions.NoArgsIsHelpError():
             click.echo(error.format_message(), err=True)
             return USAGE
@@ -180,9 +181,6 @@ def explain(error: BaseException) -> int:
         case KeyboardInterrupt() | click.Abort():
             say("interrupted")
             return INTERRUPTED
-    if refused(error):
-        say(f"stdout: cannot be written: {os.strerror(cast(OSError, error).errno or 0)}")
-        return OUTPUT
     if ran_out(error):
         say("out of memory; a machine with more memory, or a smaller mesh, is needed")
     else:

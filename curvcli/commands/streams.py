@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import errno
 import io
 import os
 import sys
 
-# What stdout says of a full or lost disk, or of having been closed by the parent.
-_REFUSALS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF}
+from ..errors import OutputError
+from ..sinks import Sink, Talk, whole
 
 
 def complete() -> None:
-    """Open what the parent closed, so that no other file becomes stdout by taking its number.
+    """Open what the parent closed, so that no other file becomes stdout by taking its number, and have all written.
 
-    stdin is empty then, stderr forgets; stdout refuses, so that nobody believes to have written what is lost. Letters
-    that a stream's encoding lacks are escaped: a terminal of ASCII gets its summary too.
+    stdin is empty then, stderr forgets; stdout refuses, so that nobody believes to have written what is lost. From here
+    on every byte that goes to stdout or stderr passes through `curvcli.sinks`.
     """
     for number, name, flags in ((0, "stdin", os.O_RDONLY), (1, "stdout", os.O_RDONLY), (2, "stderr", os.O_WRONLY)):
         if getattr(sys, name) is None:
@@ -25,18 +24,17 @@ def complete() -> None:
                 os.close(found)
             setattr(sys, name, open(number, "w" if number else "r", closefd=False))  # noqa: SIM115
         stream = getattr(sys, name)
-        if number and isinstance(stream, io.TextIOWrapper):
+        if number and os.name == "posix":
+            setattr(sys, name, whole(stream, Talk if number == 2 else Sink))
+        elif number and isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 
 
-def refused(error: BaseException) -> bool:
-    """Whether an error that nobody explained is stdout's: files explain theirs where they are opened."""
-    return isinstance(error, OSError) and error.filename is None and error.errno in _REFUSALS
-
-
-def settle() -> None:
-    """Write what stdout still holds, or forget it, so that Python has nothing to complain about at its exit."""
+def settle() -> OutputError | None:
+    """Write what stdout still holds; its refusal where it has refused anything."""
     try:
         sys.stdout.flush()
-    except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    except OutputError as error:
+        return error
+    raw = getattr(getattr(sys.stdout, "buffer", None), "raw", None)
+    return raw.failure if isinstance(raw, Sink) else None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import sys
 import traceback
@@ -18,10 +17,7 @@ _SHOWN = 1000
 
 def say(message: str) -> None:
     """One line on stderr; where nobody can read it, the exit code still tells."""
-    try:
-        click.echo(f"curvcli: {one_line(message)}", err=True)
-    except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+    click.echo(f"curvcli: {one_line(message)}", err=True)
 
 
 def one_line(text: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import io
 import os
 import stat
 import sys
@@ -15,6 +16,7 @@ from typing import BinaryIO
 
 from ..errors import OutputError
 from ..printable import shown
+from ..sinks import Sink, binary
 from .places import STDOUT, Place, beside, probe, resolve, same_file, stream_number
 
 # What link() says where hard links are unknown or not allowed; everything else is a real failure.
@@ -42,8 +44,8 @@ class Outputs:
     What a killed program, an interruption or a full disk leaves is whole without more; with `durable`, contents are on
     the disk before they get their names, so that what a record says of them holds after a power cut too.
 
-    A closed pipe (BrokenPipeError) passes through as it is; outputs complete by then are kept, so `-` is best written
-    last. Errors: OutputError for a path that exists (without `force`), cannot be written, or is named twice.
+    A pipe that its reader closes takes what comes and forgets it: the other outputs are written all the same.
+    Errors: OutputError for a path that exists (without `force`), cannot be written, or is named twice.
     """
 
     def __init__(self, paths: Iterable[str | os.PathLike[str]], force: bool = False, durable: bool = False):
@@ -63,7 +65,7 @@ class Outputs:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         try:
-            if error is None or isinstance(error, BrokenPipeError):
+            if error is None:
                 self.commit()
         finally:
             with self._begin:
@@ -86,8 +88,7 @@ class Outputs:
             elif stream_number(target.place.final) == 1:
                 yield from _write_stdout()
             else:
-                with open(target.place.final, "wb") as stream:
-                    yield stream
+                yield from _write_directly(target)
         target.complete = True
 
     def commit(self) -> None:
@@ -152,11 +153,9 @@ class Outputs:
 
 @contextlib.contextmanager
 def _explained(path: str) -> Iterator[None]:
-    """Turn the system's refusal into one line that names the output; a closed pipe is no refusal."""
+    """Turn the system's refusal into one line that names the output."""
     try:
         yield
-    except BrokenPipeError:
-        raise
     except OSError as error:
         reason = error.strerror or str(error)
         raise OutputError(f"{'stdout' if path == STDOUT else shown(path)}: cannot be written: {reason}") from error
@@ -165,7 +164,19 @@ def _explained(path: str) -> Iterator[None]:
 def _write_stdout() -> Iterator[BinaryIO]:
     if sys.stdout is None:
         raise OutputError("stdout: is closed")
-    sys.stdout.flush()
-    yield sys.stdout.buffer
-    # Here, not at the end of the program, where a closed pipe or a full disk could no longer be told.
-    sys.stdout.buffer.flush()
+    stream = binary(sys.stdout)
+    yield stream
+    # Here, not at the end of the program, where a full disk could no longer be told.
+    stream.flush()
+
+
+def _write_directly(target: _Target) -> Iterator[BinaryIO]:
+    """To a device, a FIFO, or a stream that is open already."""
+    number = stream_number(target.place.final)
+    flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
+    descriptor = os.open(target.place.final, flags, 0o666) if number is None else os.dup(number)
+    try:
+        with io.BufferedWriter(Sink(descriptor, shown(target.path))) as stream:
+            yield stream
+    finally:
+        os.close(descriptor)
