@@ -25,9 +25,10 @@ from .pipeline import at_scales, defaults, evaluate, prepare, presented, resolve
 from .precision import precision
 from .regions import Regions, cut_apart, find_regions
 from .regions import findings as region_findings
+from .resolution import unscaled
 from .settings import DEFAULTS, Settings, parse_scales
 from .surface import Surface
-from .totals import lost, lost_totals, totals
+from .totals import lost, lost_totals, summed, totals
 
 Array = NDArray[Any]
 
@@ -82,7 +83,10 @@ class Analysis:
 
     @cached_property
     def _totalled(self) -> list[str]:
-        return [q.name for q in passes.quantities(public=False) if q.total and q.name in self._closure]
+        """What is summed: of several scales, that of each for which the column itself is chosen."""
+        scaled = [name for name in self.chosen if AT_SCALE in name]
+        plain = [name for name in self._closure if not (scaled and passes.depends_on_scale(name))]
+        return [quantity.name for quantity in summed([*plain, *scaled])]
 
     @cached_property
     def _flags(self) -> list[str]:
@@ -253,7 +257,9 @@ def analyze(
     conventions = Conventions(mean, area, found.orient, weld, unit, named, *told(chosen, settings, found))
     named_checks = None if checks is None else known_checks(checks)
     labels = None if regions is None else find_regions(found, regions)
-    return Analysis(found, chosen, conventions, labels, named_checks, settings)
+    analysis = Analysis(found, chosen, conventions, labels, named_checks, settings)
+    analysis.extra_notices += unscaled(chosen, scales)
+    return analysis
 
 
 def choose(passes: str | Iterable[str] | None, settings: Settings, scaled: bool) -> list[str]:

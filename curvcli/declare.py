@@ -170,7 +170,10 @@ class Registry(Mapping[str, Pass]):
         """The declaration of a quantity, also of one at a scale."""
         plain, _, scale = name.partition(AT_SCALE)
         found = next(quantity for quantity in self._providers[plain].provides if quantity.name == plain)
-        return replace(found, name=name, column=f"{found.stem}_{scale}") if scale else found
+        if not scale:
+            return found
+        total = f"{found.total}_{scale}" if found.total else None
+        return replace(found, name=name, column=f"{found.stem}_{scale}", total=total)
 
     def depends_on_scale(self, name: str) -> bool:
         """Whether a quantity, or one that it needs, looks at neighbourhoods."""

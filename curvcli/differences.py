@@ -179,7 +179,8 @@ def _piece(piece: Mapping[str, Any], prefix: Key, flatness: float) -> Iterator[t
         return Leaf(value, power(area, exponent / 2) if cancels else 0.0, terms * power(edge, exponent))
 
     for name, value in totals.items():
-        leaf = total(value, *exponents[name]) if name in exponents else Leaf(value, 0.0)
+        known = name if name in exponents else name.rpartition("_")[0]  # of several scales, NAME_SCALE
+        leaf = total(value, *exponents[known]) if known in exponents else Leaf(value, 0.0)
         yield (*prefix, "totals", name), leaf
     steiner = piece.get("steiner")
     if steiner is not None:

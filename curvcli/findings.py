@@ -13,7 +13,7 @@ from .census import duplicate_faces, duplicate_vertices
 from .errors import Notice
 from .loading.weld import weld_exact
 from .plurals import agree, counted
-from .precision import is_single
+from .precision import is_single, last_place
 from .surface import Surface
 from .topology import faces_at, find_edges
 
@@ -47,9 +47,10 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     if "kappa_clamped" in columns:
         yield Notice.at(
             "clamped_radicand",
-            np.flatnonzero(columns["kappa_clamped"]),
+            _clamped(surface, columns),
             "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
-            "the mesh is coarse or rough there: no smooth surface has such curvatures",
+            "H and K are discretised apart: at umbilics, as on spheres, a small error does it; elsewhere the mesh is "
+            "coarse or rough",
         )
     if "folded" in columns:
         yield Notice.at(
@@ -72,6 +73,20 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             "[vertex|vertices] whose Voronoi cell would take too many flips to find; it is left empty",
             "--area mixed needs none; a mesh without long fans of thin triangles needs few",
         )
+
+
+def _clamped(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
+    """Vertices whose radicand is clamped, without flat ones: those where K is below what rounded coordinates make it.
+
+    Ends that move by one in the last place turn the edges of a flat star by about place/√A, and K is quadratic in that.
+    """
+    found = np.flatnonzero(columns["kappa_clamped"])
+    if not len(found):
+        return found
+    place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
+    turned = surface.degree[found] * place / np.sqrt(columns["star_area"][found])
+    kept: NDArray[np.intp] = found[np.abs(columns["K"][found]) > turned * turned]
+    return kept
 
 
 def _not_a_manifold(surface: Surface) -> Iterator[Notice]:
@@ -231,15 +246,6 @@ def _more_digits(surface: Surface) -> str:
     if largest / 16 > (used.max(axis=1) / 2 - used.min(axis=1) / 2).max():
         return "the mesh is small against its distance from the origin: move it there before it is written"
     return "edges are that short against the mesh: more digits in the file, or --weld TOL, which merges their ends"
-
-
-def last_place(surface: Surface, kind: type[np.floating[Any]] = np.float64) -> float:
-    """The unit in the last place of the largest coordinate that a face uses, in the unit of computation."""
-    used = surface.used_coordinates()
-    # Beyond the last one there is no number.
-    largest = min(max(float(used.max()), -float(used.min())), float(np.finfo(kind).max) / 2)
-    place = np.float64(np.spacing(kind(largest)))
-    return float(np.ldexp(place, -surface.unit_exponent))
 
 
 def rounding_of_K(

@@ -54,9 +54,14 @@ def presets() -> dict[str, Sequence[str]]:
         "topology": ["status", "degree"],
         "core": CORE,
         "paper": [q.name for q in public if q.source.startswith("Sullivan")],
-        "estimates": [q.name for q in public if q.kind == "density" and passes.depends_on_scale(q.name)],
+        "estimates": [q.name for q in public if _estimates(q)],
         "all": [q.name for q in public],
     }
+
+
+def _estimates(quantity: Quantity) -> bool:
+    """Whether it is a curvature, a shape index or an energy at a scale; directions and conditions are none."""
+    return (quantity.kind in ("density", "measure") or quantity.signed) and passes.depends_on_scale(quantity.name)
 
 
 def resolve(names: Iterable[str]) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,15 @@ def is_single(values: NDArray[np.float64]) -> bool:
     """Whether every value is a float32 number, as in binary STL and most PLY files."""
     with np.errstate(over="ignore", under="ignore"):
         return all(bool((row.astype(np.float32) == row).all()) for row in values)
+
+
+def last_place(surface: Surface, kind: type[np.floating[Any]] = np.float64) -> float:
+    """The unit in the last place of the largest coordinate that a face uses, in the unit of computation."""
+    used = surface.used_coordinates()
+    # Beyond the last one there is no number.
+    largest = min(max(float(used.max()), -float(used.min())), float(np.finfo(kind).max) / 2)
+    place = np.float64(np.spacing(kind(largest)))
+    return float(np.ldexp(place, -surface.unit_exponent))
 
 
 def decimals(values: NDArray[np.float64], largest: float) -> int | None:

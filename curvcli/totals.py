@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .blocks import EPSILON, LOST, cross, dot
 from .census import census, classify
-from .declare import Quantity, passes
+from .declare import AT_SCALE, Quantity, passes
 from .groups import Groups, Segments
 from .slices import slices
 from .surface import Surface
@@ -60,15 +60,22 @@ def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
 def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> Iterator[tuple[str, Floats, int, int]]:
     """Key, values in the unit of computation, length exponent and degree in H of every total."""
     orientable = census(surface, groups).orientable
-    for quantity in passes.quantities(public=False):
-        if quantity.total is None or quantity.name not in columns:
-            continue
+    for quantity in summed(columns):
         total = _sum(groups.of(surface, quantity.on), quantity, columns[quantity.name])
         if quantity.parity == "odd":
             total = np.where(orientable if total.ndim == 1 else orientable[:, None], total, np.nan)
-        yield quantity.total, total, quantity.length_exponent, quantity.mean_degree
+        yield str(quantity.total), total, quantity.length_exponent, quantity.mean_degree
         if quantity.total == "area":
             yield "volume", volumes(surface, groups), 3, 0
+
+
+def summed(names: Collection[str]) -> list[Quantity]:
+    """Those of the named quantities that have a total, in the order of declaration; of several scales each its own."""
+    at: dict[str, list[str]] = {}
+    for name in names:
+        at.setdefault(name.partition(AT_SCALE)[0], []).append(name)
+    declared = [quantity for quantity in passes.quantities(public=False) if quantity.total]
+    return [passes.quantity(name) for quantity in declared for name in at.get(quantity.name, ())]
 
 
 def _sum(segments: Segments, quantity: Quantity, column: Any) -> Floats:

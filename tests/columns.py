@@ -51,6 +51,8 @@ def agree(quantity: Quantity, found: Array, wanted: Array, digits: float = 1e-11
     largest = np.abs(wanted[known]).max()
     if quantity.kind == "measure" or (quantity.kind == "density" and passes.depends_on_scale(quantity.name)):
         largest = max(largest, length**quantity.length_exponent)
+    if quantity.mean_degree == 2 and passes.depends_on_scale(quantity.name):
+        digits *= 2  # the square of an estimate has twice its relative error
     tolerance = np.sqrt(digits) if quantity.name in HALF_THE_DIGITS else digits
     gap = np.abs(found - wanted)[known]
     if quantity.kind == "direction" and quantity.on == "vertex":

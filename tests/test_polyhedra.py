@@ -134,9 +134,9 @@ def test_a_membrane_inside_leaves_no_volume() -> None:
     assert analyse(mesh(points, sides)).totals["volume"] == pytest.approx(1 / 3)
 
 
-def test_where_principal_curvatures_are_equal_there_is_no_shape() -> None:
+def test_where_principal_curvatures_are_equal_there_is_a_cap() -> None:
     """A radicand that is clamped at 0 makes an umbilic."""
     column = analyse(meshes.ellipsoid()).vertices
     equal = column["kappa_1"] == column["kappa_2"]
     assert 0 < equal.sum() < len(equal)
-    np.testing.assert_array_equal(np.isnan(column["shape_index"]), equal)
+    np.testing.assert_array_equal(column["shape_index"] == 1, equal)

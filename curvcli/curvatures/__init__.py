@@ -20,5 +20,6 @@ from . import (  # noqa: F401, I001  (a pass may only need what stands above it)
     vertex_normals,
     corrected,
     fits,
+    at_scale,
     uncertainty,
 )

@@ -36,20 +36,29 @@ _SHARED: dict[str, Any] = {
     ),
     pointwise=True,
 )
-def principal_curvatures(h_signed: Column, K_density: Column) -> tuple[Column | Flags, ...]:
-    """Principal curvatures, κ₁ ≥ κ₂; a negative radicand, where H² < 4K, is clamped at 0 and counted."""
+def principal_curvatures(h_signed: Column, K_density: Column, cell_area: Column) -> tuple[Column | Flags, ...]:
+    """Principal curvatures, κ₁ ≥ κ₂; a negative radicand, where H² < 4K, is clamped at 0 and counted.
+
+    A radicand that the rounding of K makes negative is clamped too, but not counted.
+    """
     half = 0.5 * h_signed
     root = half * half
     root -= K_density
-    clamped = root < 0
+    clamped = root * cell_area < -_DEFECT
     np.sqrt(np.maximum(root, 0.0, out=root), out=root)
     larger = half + root
     return larger, np.subtract(half, root, out=half), clamped
 
 
+def koenderink(kappa_1: Column, kappa_2: Column) -> tuple[Column, Column]:
+    """Koenderink's shape index (2/π) atan2(κ₁ + κ₂, κ₁ − κ₂) and curvedness √((κ₁² + κ₂²)/2), for κ₁ ≥ κ₂."""
+    index = (2 / np.pi) * np.arctan2(kappa_1 + kappa_2, kappa_1 - kappa_2)
+    return index, np.hypot(kappa_1, kappa_2) * np.sqrt(0.5)
+
+
 @curvature_pass(
     symbol="S",
-    formula="(2/π) atan((κ₁ + κ₂)/(κ₁ − κ₂))",
+    formula="(2/π) atan2(κ₁ + κ₂, κ₁ − κ₂)",
     kind="ratio",
     parity="odd",
     signed=True,
@@ -59,10 +68,9 @@ def principal_curvatures(h_signed: Column, K_density: Column) -> tuple[Column | 
     pointwise=True,
 )
 def shape_index(kappa_1: Column, kappa_2: Column, cell_area: Column) -> Column:
-    """Koenderink's shape index; null at umbilics and planes, where κ₁ − κ₂ is no more than the rounding of K makes."""
-    gap = kappa_1 - kappa_2
-    index = (2 / np.pi) * np.arctan2(kappa_1 + kappa_2, gap)
-    return null_where(gap * gap * cell_area <= 4 * _DEFECT, index)
+    """Koenderink's shape index; +1 or −1 at umbilics, null where κ₁ and κ₂ are both no more than K's rounding makes."""
+    size = np.maximum(np.abs(kappa_1), np.abs(kappa_2))
+    return null_where(size * size * cell_area <= 4 * _DEFECT, koenderink(kappa_1, kappa_2)[0])
 
 
 @curvature_pass(

@@ -1,0 +1,50 @@
+"""Shared cases of shape indices, recipes, pictures and smooth energies, by the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from tests.cli.program import curvcli, wrote
+from tests.shared import SHARED, needs_shared
+
+pytestmark = needs_shared
+
+
+def case(name: str) -> str:
+    assert SHARED is not None
+    return str(SHARED / "cases" / name)
+
+
+def report(name: str, *options: str) -> dict[str, Any]:
+    ended = curvcli("analyze", case(name), "--json", *options)
+    wrote(ended)
+    found: dict[str, Any] = json.loads(ended.out)
+    return found
+
+
+def warnings(name: str, *options: str) -> dict[str, Any]:
+    return {one["code"]: one for one in report(name, *options)["warnings"]}
+
+
+def test_umbilics_have_a_shape_index(tmp_path: Path) -> None:
+    import numpy as np
+
+    path = tmp_path / "umbilic.npz"
+    wrote(curvcli("analyze", case("umbilic.ply"), "-p", "kappa_1,kappa_2,shape_index", "-o", path))
+    table = np.load(path)
+    equal = table["kappa_1"] == table["kappa_2"]
+    assert equal.sum() > 50
+    assert (table["shape_index"][equal] == 1).all()
+    assert np.isfinite(table["shape_index"]).all()
+
+
+def test_a_shape_index_at_a_radius() -> None:
+    named = warnings("scan_ball_r25.ply", "-p", "shape_index", "--radius", "6")["not_at_scale"]
+    assert "shape_index_corrected" in named["hint"]
+    names = [f"shape_index_{suffix}" for suffix in ("ring", "corrected", "fit")]
+    columns = report("scan_ball_r25.ply", "-p", ",".join(names), "--radius", "6")["columns"]
+    for name in names:
+        assert columns[name]["median"] > 0.9
+        assert columns[name]["nulls"] == 0
