@@ -180,6 +180,11 @@ class Registry(Mapping[str, Pass]):
         needs = self._providers[name].needs
         return "scale" in needs or any(self.depends_on_scale(need) for need in needs if need in self._providers)
 
+    def looks_around(self, name: str) -> bool:
+        """Whether a quantity, perhaps at a scale, says of vertices what their neighbourhoods are like."""
+        plain = name.partition(AT_SCALE)[0]
+        return self.depends_on_scale(plain) and self.quantity(plain).on == "vertex"
+
     def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
         """Quantities in the order of declaration."""
         return [

@@ -19,6 +19,7 @@ from .errors import UsageError
 from .nearest import nearest
 from .neighbourhoods import forget
 from .settings import DEFAULTS, Settings
+from .sheets import on_single_fans, sheets
 from .slices import slices
 from .threads import for_each
 
@@ -174,8 +175,13 @@ def evaluate(
     depend on the scale may say which, `NAME@SCALE`. known: columns that need not be computed again.
     Arrays are frozen, in the unit of computation and the sum convention of H.
     """
+    load_passes()
     have = dict(known or {})
     wanted = {name for name in names if name not in have}
+    around = {name for name in wanted if passes.looks_around(name)}
+    if around and not surface.is_manifold:
+        have |= on_single_fans(surface, evaluate(sheets(surface), around, area=area, settings=settings))
+        wanted -= around
     plain = {name for name in wanted if AT_SCALE not in name}
     have |= _evaluate(surface, plain | _shared(wanted - plain, area), area, settings, have)
     for scale in settings.scales:

@@ -125,7 +125,7 @@ def test_no_rings(text: str) -> None:
 
 
 @pytest.mark.parametrize("scale", [{"rings": 1}, {"rings": 3}, {"radius": "2.2e"}])
-@pytest.mark.parametrize("name", ["torus", "cap", "with_flat_face", "pinched"])
+@pytest.mark.parametrize("name", ["torus", "cap", "with_flat_face", "two_bodies"])
 def test_averaged_measures_are_the_measures_summed_and_divided(name: str, scale: dict[str, int | str]) -> None:
     surface = meshes.zoo(name).surface()
     found = curvcli.analyze(surface, "K,A,H_vec,A_vec,K_ring,h_ring", **scale)  # type: ignore[arg-type]

@@ -47,16 +47,15 @@ def corrected_measures(surface: Surface, scale: Scale, fitted_normal: VectorColu
     Each face's measures go to its corners in equal parts and are summed over neighbourhoods. What an average over a
     neighbourhood takes off the peaks is estimated by averaging once more, and given back: x̂ = 2 x̄ − x̿.
     """
-    normal = fitted_normal if surface.is_manifold else np.where(surface.nonmanifold, np.nan, fitted_normal)
     corners = _Corners(surface)
-    measures = _measures(surface, normal)
+    measures = _measures(surface, fitted_normal)
     mean = _divided(sums(surface, scale, corners.gather(measures)))
     _spread(surface, mean, measures)
     again = _divided(sums(surface, scale, corners.gather(measures)))
     del measures
     found = np.empty((7, surface.n_vertices))
     for block in slices(surface.n_vertices):
-        known = np.isfinite(normal[:, block]).all(axis=0)
+        known = np.isfinite(fitted_normal[:, block]).all(axis=0)
         sharp = 2 * mean[block, _MU_2:] - again[block, _MU_2:]
         found[:, block] = np.where(known, sharp.T, np.nan)
     return found[0], found[1:], mean[:, _MU_0].copy()

@@ -35,7 +35,7 @@ _LINE: dict[str, Any] = {
     "preserves": "dir_1_fit ⊥ dir_2_fit, both tangential to the fitted surface",
     **_SHARED,
 }
-# Principal curvatures that differ by less than this part of their size have no directions.
+# Principal curvatures that differ by less than this part of their size, or by rounding, have no directions.
 _UMBILIC = 1e-9
 
 
@@ -145,5 +145,5 @@ def _curvatures(given: Moments, jets: Jets) -> tuple[Floats, Floats]:
         x = (s - skew * y) / first
         vector = x * given.frame[0] + y * given.frame[1] + (p * x + q * y) * given.frame[2]
         target[:] = line(vector / np.sqrt(dot(vector, vector)))
-    lines[:, :, ~(gap > _UMBILIC * (np.abs(half) + gap + jets.size))] = np.nan
+    lines[:, :, ~(gap > np.maximum(_UMBILIC * (np.abs(half) + gap + jets.size), jets.rounding))] = np.nan
     return np.array([a * d - b * b, a + d, half + gap, half - gap, jets.condition]), lines

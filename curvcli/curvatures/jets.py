@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..blocks import Floats
+from ..blocks import EPSILON, Floats
 from ..topology import Mask
 from .moments import Moments
 
@@ -25,6 +25,8 @@ _LOST, _SINGULAR, _WEAK = 1e-12, 1e4, 1e4
 # A group of terms is noise where the mean square of its coefficients is not well above that of the residuals: the
 # quotient F is compared with this times 1 + 12/(degrees of freedom), about the 99 % quantile of its distribution.
 _NOISE = 3.0
+# Heights have the rounding of a few operations each.
+_ROUNDING = 16 * EPSILON
 # Points beyond the terms without which the residuals tell nothing about the noise.
 _SPARE = 4
 
@@ -34,12 +36,14 @@ class Jets:
     """Derivatives of the fitted height at the vertex, in the frame of the moments: gradient (2, m), hessian (3, m).
 
     condition: (m,) of the design of degree 2. size: (m,) the curvature that heights as large as these stand for.
+    rounding: (m,) the curvature that rounding of the heights alone may stand for.
     """
 
     gradient: Floats
     hessian: Floats
     condition: Floats
     size: Floats
+    rounding: Floats
 
 
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # what is not determined may come to anything
@@ -70,9 +74,12 @@ def fit(given: Moments) -> Jets:
     determined &= np.isfinite(found).all(axis=0)
     found[:, ~determined] = np.nan
     hessian = found[3:6] * np.array([2.0, 1.0, 2.0])[:, None]
-    spread = given.of(2, 0) + given.of(0, 2)
-    size = np.sqrt(given.squared_height * given.size) / np.where(determined, spread, np.nan)
-    return Jets(found[1:3], hessian, np.where(determined, condition, np.nan), size)
+    spread = np.where(determined, given.of(2, 0) + given.of(0, 2), np.nan)
+    size = np.sqrt(given.squared_height * given.size) / spread
+    condition = np.where(determined, condition, np.nan)
+    # Heights are rounded like distances in the neighbourhood, whose mean square is the spread over the number.
+    rounding = _ROUNDING * condition * np.sqrt(given.size / spread)
+    return Jets(found[1:3], hessian, condition, size, rounding)
 
 
 def _factor(given: Moments) -> tuple[Floats, Mask]:

@@ -67,9 +67,11 @@ def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> 
     with a normal and at least so many points.
 
     star_vector: (3, V) vector areas of the stars. The normal is that of the vertex and its neighbours together; where
-    the surface has no orientation, that of the vertex alone.
+    the patch has no orientation, that of the vertex alone.
     """
-    normal = star_vector if not surface.orientable else (as_weights(adjacency(surface)) @ star_vector.T).T
+    normal: Floats = (as_weights(adjacency(surface)) @ star_vector.T).T
+    if not surface.orientable:
+        normal = np.where(surface.without_orientation, star_vector, normal)
     length = np.sqrt(dot(normal, normal))
     usable = surface.referenced & ~surface.nonmanifold & (length > 0)
     normal = np.divide(normal, length, where=usable, out=np.full_like(normal, np.nan))

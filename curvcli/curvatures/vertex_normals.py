@@ -136,7 +136,8 @@ class _Fit:
         self._lost = _LOST * np.square(extent[members.label] if several else np.full(surface.n_vertices, extent[0]))
         self._square = np.empty((6, surface.n_vertices))
         self._residual = np.empty((3, surface.n_vertices))
-        self._by_pairs: set[int] = set()
+        # Rows that moments will not do for.
+        self._by_pairs = surface.without_orientation.copy()
 
     def normals(self, normal: VectorColumn, steps: Sequence[float]) -> VectorColumn:
         """The normals after steps towards the solution, of all vertices at once."""
@@ -162,11 +163,13 @@ class _Fit:
             square = self._square[:, block]
             for row, (i, j) in zip(square, ENTRIES, strict=True):
                 row[:] = total[WHERE[i, j]] - total[6 + i] * p[j] - total[6 + j] * p[i] + total[9] * p[i] * p[j]
-            small = square[0] + square[3] + square[5] < self._lost[block] * total[9]
-            lost = small[np.diff(rows.indptr) > 0].any()
-            if lost or not self._surface.orientable:
-                self._by_pairs.add(block.start)
-            self._residual[:, block] = self._over_pairs(block, rows, normal, normal, square if lost else None)
+            self._residual[:, block] = self._over_pairs(block.start + np.arange(len(p[0])), rows, normal, normal, None)
+            lost = np.flatnonzero(square[0] + square[3] + square[5] < self._lost[block] * total[9])
+            if len(lost):
+                self._by_pairs[block.start + lost] = True
+                exact = np.empty((6, len(lost)))
+                self._over_pairs(block.start + lost, rows[lost], normal, normal, exact)
+                square[:, lost] = exact
 
         for_each(neighbourhoods(self._surface, self._scale), begin)
 
@@ -182,15 +185,17 @@ class _Fit:
 
         def add(found: tuple[slice, Pattern]) -> None:
             block, rows = found
-            if block.start in self._by_pairs:
-                self._residual[:, block] += self._over_pairs(block, rows, change, normal, None)
-                return
             total, p = (as_weights(rows) @ moments).T, self._at[:, block]
             height = dot(p, total[4:7]) - total[3]
             square, own = self._square[:, block], change[:, block]
+            added = np.empty_like(own)
             for i in range(3):
                 other = total[i] + p[i] * height - dot(p, total[7 + 3 * i : 10 + 3 * i])
-                self._residual[i, block] += other + dot(square[WHERE[i]], own)
+                added[i] = other + dot(square[WHERE[i]], own)
+            pairs = np.flatnonzero(self._by_pairs[block])
+            if len(pairs):
+                added[:, pairs] = self._over_pairs(block.start + pairs, rows[pairs], change, normal, None)
+            self._residual[:, block] += added
 
         for_each(neighbourhoods(self._surface, self._scale), add)
 
@@ -207,9 +212,9 @@ class _Fit:
         return found
 
     def _over_pairs(
-        self, block: slice, rows: Pattern, field: VectorColumn, normal: VectorColumn, square: Floats | None
+        self, at: NDArray[np.intp], rows: Pattern, field: VectorColumn, normal: VectorColumn, square: Floats | None
     ) -> Floats:
-        """(3, n) Σ d ((m_p + m_q)·d) of a field m over the rows of a block, and Σ d ⊗ d where it is asked for.
+        """(3, n) Σ d ((m_p + m_q)·d) of a field m over rows that belong to n vertices, and Σ d ⊗ d where asked for.
 
         Without an orientation m_q is turned as the normal at q is to that at p.
         """
@@ -221,16 +226,16 @@ class _Fit:
             first, last = rows.indptr[part.start], rows.indptr[part.stop]
             if first == last:
                 continue
-            q, each = rows.indices[first:last], count[part]
-            here = slice(block.start + part.start, block.start + part.stop)
-            chord = [x.take(q) - np.repeat(x[here], each) for x in surface.xyz]
+            q, p = rows.indices[first:last], np.repeat(at[part], count[part])
+            chord = [x.take(q) - x.take(p) for x in surface.xyz]
             other = [x.take(q) for x in field]
             if not surface.orientable:
-                turn = np.copysign(1.0, sum(x.take(q) * np.repeat(x[here], each) for x in normal))
+                turn = np.copysign(1.0, sum(x.take(q) * x.take(p) for x in normal))
+                turn = np.where(surface.without_orientation.take(p), turn, 1.0)
                 other = [turn * x for x in other]
-            height = dot([a + np.repeat(x[here], each) for a, x in zip(other, field, strict=True)], chord)
+            height = dot([a + x.take(p) for a, x in zip(other, field, strict=True)], chord)
             weighted = chord if self._weight is None else [self._weight.take(q) * x for x in chord]
-            filled = np.flatnonzero(each)
+            filled = np.flatnonzero(count[part])
             start = (rows.indptr[part.start : part.stop] - first)[filled]
             for k in range(3):
                 found[k, filled + part.start] = np.add.reduceat(weighted[k] * height, start)
