@@ -17,7 +17,7 @@ from ..exits import FAILED_CHECK, INTERNAL, OK, OUTPUT
 from ..printable import shown
 from .manifest import Manifest
 from .model import Engine, Item, Row, Settings
-from .places import hash_of, is_url, read_url
+from .places import hash_of, is_url, length_of, read_url
 from .summary import write_summary
 
 _WRITTEN = ("ok", "failed_checks")
@@ -45,7 +45,7 @@ class Batch:
         _sweep(self.items)
 
     def todo(self) -> list[Item]:
-        """The meshes that are not done, or changed, or whose outputs are gone."""
+        """The meshes that are not done, or changed, or whose outputs are not what was written."""
         with ThreadPoolExecutor() as pool:
             done = list(pool.map(self._done, self.items))
         for item, row in zip(self.items, done, strict=True):
@@ -58,7 +58,10 @@ class Batch:
         for row in engine(todo, self.settings):
             row.options = self._options
             if row.status in _WRITTEN:
-                row.outputs = self._shown(self._paths[row.path])
+                names = self._shown(self._paths[row.path])
+                row.outputs = [
+                    msgspec.structs.replace(one, path=name) for name, one in zip(names, row.outputs, strict=True)
+                ]
             row = self._coded(row)
             self.manifest.append(row)
             yield row
@@ -77,10 +80,17 @@ class Batch:
             return None
         if row.status in _AGAIN or row.exit_code in (OUTPUT, INTERNAL) or row.sha256 is None:
             return None
-        written = row.status in _WRITTEN
-        if written and not (row.outputs == self._shown(item) and all(os.path.isfile(one) for _, one in item.outputs)):
+        if row.status in _WRITTEN and not self._whole(row, item):
             return None
         return row if row.sha256 == _hash(item) else None
+
+    def _whole(self, row: Row, item: Item) -> bool:
+        """Whether every output is there, byte for byte as it was written; lengths tell most of what is cut off."""
+        if [one.path for one in row.outputs] != self._shown(item):
+            return False
+        pairs = [(one, path) for one, (_, path) in zip(row.outputs, item.outputs, strict=True)]
+        lengths = all(length_of(path) == one.bytes for one, path in pairs)
+        return lengths and all(hash_of(path) == one.sha256 for one, path in pairs)
 
     def _coded(self, row: Row) -> Row:
         failed = FAILED_CHECK if self.strict else OK

@@ -11,9 +11,8 @@ import msgspec
 
 from ..errors import OutputError
 from ..printable import shown
+from .model import MANIFEST as NAME
 from .model import Row
-
-NAME = "manifest.jsonl"
 
 
 class Manifest:

@@ -12,6 +12,9 @@ import msgspec
 from .._version import __version__
 from ..output.write import Appearance
 
+# What the batch itself writes into its folder.
+MANIFEST, CSV, PARQUET = OWN = ("manifest.jsonl", "summary.csv", "summary.parquet")
+
 Status = Literal["ok", "failed_checks", "error", "timeout", "out_of_memory", "crashed"]
 
 
@@ -68,6 +71,14 @@ class Limits(msgspec.Struct, frozen=True):
     memory: int | None = None
 
 
+class Written(msgspec.Struct, frozen=True):
+    """An output as it was when it was complete: its path below the folder of the batch, its length, its SHA-256."""
+
+    path: str
+    bytes: int
+    sha256: str
+
+
 class Row(msgspec.Struct, kw_only=True):
     """One line of the manifest: what became of one mesh. The summary holds none of what differs from run to run."""
 
@@ -80,7 +91,7 @@ class Row(msgspec.Struct, kw_only=True):
     error: str | None = None
     seconds: float = 0.0
     memory: int | None = None
-    outputs: list[str] = []
+    outputs: list[Written] = []
     topology: dict[str, Any] = {}
     totals: dict[str, Any] = {}
     checks: dict[str, Any] = {}

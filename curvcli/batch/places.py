@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import glob
 import hashlib
 import io
 import os
 import re
+import stat
 import sys
 from typing import Any, cast
 from urllib.parse import unquote, urlsplit
@@ -14,10 +14,10 @@ from urllib.parse import unquote, urlsplit
 from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
 from ..loading.content import open_regular, read_limited
 from ..printable import shown
+from .walk import files_of, is_wild
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
 _NOT_FOUND = 404
-_MAGIC = re.compile(r"[*?[]")
 
 
 def is_url(place: str) -> bool:
@@ -39,8 +39,8 @@ def absolute(path: str) -> str:
 
 
 def local(place: str) -> str:
-    """A `file://` URL as the path it stands for; everything else as it is."""
-    if not place.lower().startswith("file://"):
+    """A `file://` or `local://` URL as the path it stands for; everything else as it is."""
+    if not place.lower().startswith(("file://", "local://")):
         return place
     from urllib.request import url2pathname
 
@@ -52,7 +52,7 @@ def root_of(pattern: str) -> tuple[str, ...]:
     parts = parts_of(pattern)[:-1]
     if os.path.lexists(pattern):
         return parts
-    return parts[: next((place for place, part in enumerate(parts) if _MAGIC.search(part)), len(parts))]
+    return parts[: next((place for place, part in enumerate(parts) if is_wild(part)), len(parts))]
 
 
 def parts_of(place: str) -> tuple[str, ...]:
@@ -81,7 +81,7 @@ def expand(pattern: str) -> list[str]:
 def _expand_path(pattern: str) -> list[str]:
     if os.path.lexists(pattern):
         return [] if os.path.isdir(pattern) else [pattern]
-    return sorted(path for path in glob.iglob(pattern, recursive=True) if not os.path.isdir(path))
+    return files_of(pattern)
 
 
 def _expand_url(pattern: str) -> list[str]:
@@ -156,6 +156,15 @@ def listed(source: str) -> list[str]:
             raise InputError(f"the list cannot be read ({reason})", path=shown(source)) from None
     names = text.split(b"\0") if b"\0" in text else text.splitlines()
     return [os.fsdecode(name) for name in names if name.strip()]
+
+
+def length_of(path: str) -> int | None:
+    """The bytes of a regular file, None where there is none."""
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return status.st_size if stat.S_ISREG(status.st_mode) else None
 
 
 def hash_of(path: str) -> str | None:

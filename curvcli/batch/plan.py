@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import count
 
 from ..errors import NoMatchError, UsageError
 from ..output.formats import FORMATS, format_of
 from ..output.places import folded
 from ..printable import shown
 from ..tables import TABLES
-from .model import Item
+from .model import OWN, Item
 from .places import absolute, expand, is_url, listed, local, parts_of, read_url, root_of
+from .walk import real_path
 
 # Lives in the memory of one process: its content is handed to the others.
 _OF_ONE_PROCESS = "memory://"
@@ -21,16 +23,19 @@ _OF_ONE_PROCESS = "memory://"
 def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Sequence[str]) -> list[Item]:
     """Every mesh once, patterns in the order given and the files of each sorted, then the list's in its order.
 
+    A mesh that links give several names is taken by the first of them.
     The outputs of `scans/a/b.ply` by the pattern `scans/**/*.ply` are `a/b.ply.csv` and so on below `folder`: the tree
     below the deepest folder that all patterns share, and the whole name of the mesh, so that a.obj and a.ply never
-    meet. What lies in `folder` is an output and matches no wildcard.
+    meet, nor the batch's own files. What lies in `folder` is an output and matches no wildcard.
     Errors: NoMatchError for a pattern that no file matches, InputError for a list that cannot be read.
     """
     named: list[tuple[str, str]] = []
     roots: list[tuple[str, ...]] = []
     inside = os.path.join(absolute(folder), "")
+    of_folder: dict[str, str] = {}
+    within = inside, os.path.join(os.path.realpath(inside), "")
     for pattern in map(local, patterns):
-        found = [name for name in expand(pattern) if name == pattern or not absolute(name).startswith(inside)]
+        found = [name for name in expand(pattern) if name == pattern or not _is_output(name, within, of_folder)]
         if not found:
             raise NoMatchError(f"{shown(pattern)}: no file matches outside {shown(folder)}")
         named += [(name, _place(name)) for name in found]
@@ -41,12 +46,14 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
     if not named:
         raise NoMatchError(f"{shown(files_from or 'no pattern')}: names no file")
     base = _shared(roots)
-    items, seen, taken, names = [], set[str](), set[str](), Counter[str]()
+    items, seen, names = [], set[str](), Counter[str]()
+    free = _Free(inside, save)
     for name, place in named:
-        if place in seen:
+        file = place if is_url(place) else real_path(place, of_folder)
+        if file in seen:
             continue
-        seen.add(place)
-        stem = _free(os.path.join(inside, *parts_of(place)[base:]), save, taken)
+        seen.add(file)
+        stem = free.stem(parts_of(place)[base:])
         content = read_url(place, None) if place.startswith(_OF_ONE_PROCESS) else None
         names[shown(name)] += 1
         again = f"~{names[shown(name)]}" if names[shown(name)] > 1 else ""  # two names that read alike once escaped
@@ -93,11 +100,38 @@ def _place(name: str) -> str:
     return name if is_url(name) else absolute(name)
 
 
-def _free(stem: str, save: Sequence[str], taken: set[str]) -> str:
-    """The stem, numbered when one of its outputs would be another mesh's, be it only on a disk that ignores case."""
-    number, tried = 1, stem
-    while taken & (wanted := {folded(path) for _, path in outputs(tried, save)}):
-        number += 1
-        tried = f"{stem}~{number}"
-    taken |= wanted
-    return tried
+def _is_output(name: str, within: tuple[str, ...], of_folder: dict[str, str]) -> bool:
+    """Whether a file lies in the folder of the batch, be it behind a link."""
+    place = _place(name)
+    return place.startswith(within) or (not is_url(place) and real_path(place, of_folder).startswith(within))
+
+
+class _Free:
+    """Where outputs go below a folder so that none meets another, the batch's own files, or a folder of one.
+
+    A part that is taken is numbered. Names that differ in case only are one name, as on disks that ignore it.
+    """
+
+    def __init__(self, folder: str, save: Sequence[str]):
+        self._folder, self._save = folder, save
+        self._files = {folded(os.path.join(folder, name)) for name in OWN}
+        self._folders = {folded(os.path.normpath(folder))}
+
+    def stem(self, parts: Sequence[str]) -> str:
+        """What the outputs of one mesh are called, up to their suffixes; they are taken from now on."""
+        folder = self._folder
+        for part in parts[:-1]:
+            folder = next(path for path in _numbered(os.path.join(folder, part)) if folded(path) not in self._files)
+            self._folders.add(folded(folder))
+        for stem in _numbered(os.path.join(folder, *parts[-1:])):
+            wanted = {folded(path) for _, path in outputs(stem, self._save)}
+            if not wanted & (self._files | self._folders):
+                break
+        self._files |= wanted
+        return stem
+
+
+def _numbered(path: str) -> Iterator[str]:
+    """A path, and what it is called where it is taken."""
+    yield path
+    yield from (f"{path}~{number}" for number in count(2))

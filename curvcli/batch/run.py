@@ -20,10 +20,11 @@ from ..loading.recognise import format_of_name
 from ..loading.surfaces import from_file
 from ..output.atomic import Outputs
 from ..output.write import write_into
+from ..printable import shown
 from ..report.build import pieces
-from .model import Item, Limits, Row, Settings
+from .model import Item, Limits, Row, Settings, Written
 from .outcome import explained
-from .places import hash_of, is_url, read_url
+from .places import hash_of, is_url, length_of, read_url
 
 if TYPE_CHECKING:
     from ..surface import Surface
@@ -40,6 +41,7 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, BaseExcept
         analysis = _analysed(item, settings)
         row = _row(item, analysis)  # first: tables compute more, and a row must not depend on what is saved
         _write(analysis, item, settings)
+        row.outputs = _written(item)
     except Exception as error:
         failure = error
         row = explained(item.path, error, limits)
@@ -92,11 +94,25 @@ def _write(analysis: Analysis, item: Item, settings: Settings) -> None:
         )
 
 
+def _written(item: Item) -> list[Written]:
+    """What the outputs are, as a later run finds them if nobody changes them.
+
+    Errors: OutputError for one that somebody has taken away already.
+    """
+    found = []
+    for _, path in item.outputs:
+        length, digest = length_of(path), hash_of(path)
+        if length is None or digest is None:
+            raise OutputError(f"{shown(path)}: was written and is gone")
+        found.append(Written(shown(path), length, digest))
+    return found
+
+
 def _make(folder: str) -> None:
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
-        raise OutputError(f"{folder}: cannot be made: {error.strerror or error}") from error
+        raise OutputError(f"{shown(folder)}: cannot be made: {error.strerror or error}") from error
 
 
 def _row(item: Item, analysis: Analysis) -> Row:

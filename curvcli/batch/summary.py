@@ -11,9 +11,7 @@ import polars as pl
 from ..memory import require_polars
 from ..output.atomic import Outputs
 from ..report.model import Topology
-from .model import Row
-
-CSV, PARQUET = "summary.csv", "summary.parquet"
+from .model import CSV, PARQUET, Row
 
 
 def write_summary(folder: str, rows: Sequence[Row]) -> None:

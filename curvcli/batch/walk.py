@@ -1,0 +1,125 @@
+"""The files that a pattern with wildcards names: each folder is visited and each file named once, whatever links do."""
+
+from __future__ import annotations
+
+import fnmatch
+import os
+import re
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+_WILD = re.compile(r"[*?[]")
+_ALL = "**"
+
+
+class _Visit(NamedTuple):
+    """A folder to be matched against the parts of the pattern from `part` on, and how many links lead there."""
+
+    folder: str
+    part: int
+    links: int
+
+
+def is_wild(part: str) -> bool:
+    """Whether a part of a path is a pattern."""
+    return bool(_WILD.search(part))
+
+
+def files_of(pattern: str) -> list[str]:
+    """The files, sorted by their names; `*` and `?` match no leading dot, `**` matches any number of folders.
+
+    A folder that several links lead to, or a link to a folder above itself, is visited once, and a file with several
+    names is named once: by a name without links where there is one, else by the first. So the work is proportional to
+    the folders times the parts of the pattern. Folders that cannot be listed are left out.
+    """
+    drive, rest = os.path.splitdrive(pattern)
+    parts = [part for part in re.split(r"[/\\\\]" if os.sep == "\\" else "/", rest) if part]
+    if not parts or rest.endswith(("/", os.sep)):
+        return []
+    root = drive + os.sep if rest.startswith(("/", os.sep)) else drive
+    named: dict[str, tuple[int, str]] = {}
+    of_folder: dict[str, str] = {}
+    for path, links in _matches(root, parts):
+        file, name = real_path(path, of_folder), (links, path)
+        named[file] = min(named.get(file, name), name)
+    return sorted(path for _, path in named.values())
+
+
+def real_path(path: str, of_folder: dict[str, str]) -> str:
+    """The path without links; those of folders are kept, for many files lie in one."""
+    if os.path.islink(path):
+        return os.path.realpath(path)
+    folder, name = os.path.split(path)
+    if folder not in of_folder:
+        of_folder[folder] = os.path.realpath(folder)
+    return os.path.join(of_folder[folder], name)
+
+
+def _matches(root: str, parts: list[str]) -> Iterator[tuple[str, int]]:
+    """Every file that matches, and how many links lead to it: folders are visited by the fewest."""
+    seen: set[tuple[int, int, int]] = set()
+    todo = deque([_Visit(root, 0, 0)])
+    tests = [_test(part) for part in parts]
+    while todo:
+        visit = todo.popleft()
+        folder, part, links = visit
+        try:
+            status = os.stat(folder or os.curdir)
+        except (OSError, ValueError):
+            continue
+        state = (status.st_dev, status.st_ino, part)
+        if state in seen:
+            continue
+        seen.add(state)
+        last = part == len(parts) - 1
+        if not is_wild(parts[part]):
+            path = os.path.join(folder, parts[part])
+            if not os.path.isdir(path):
+                if last and os.path.lexists(path):
+                    yield path, links + os.path.islink(path)
+            elif not last:
+                _later(todo, visit, path, part + 1, os.path.islink(path))
+            continue
+        deep = parts[part] == _ALL
+        if deep and not last:
+            todo.appendleft(_Visit(folder, part + 1, links))
+        for name, is_folder, is_link in _listed(folder or os.curdir):
+            if not tests[part](name):
+                continue
+            path = os.path.join(folder, name)
+            if is_folder and (deep or not last):
+                _later(todo, visit, path, part if deep else part + 1, is_link)
+            elif not is_folder and last:
+                yield path, links + is_link
+
+
+def _later(todo: deque[_Visit], visit: _Visit, path: str, part: int, is_link: bool) -> None:
+    """Visit a folder that is found in another one: before all that lie behind one link more."""
+    found = _Visit(path, part, visit.links + is_link)
+    if is_link:
+        todo.append(found)
+    else:
+        todo.appendleft(found)
+
+
+def _test(part: str) -> Callable[[str], bool]:
+    """Whether a name fits a part of the pattern."""
+    fits = re.compile(fnmatch.translate(os.path.normcase(part))).match
+    hidden = part.startswith(".")
+    return lambda name: (hidden or not name.startswith(".")) and fits(os.path.normcase(name)) is not None
+
+
+def _listed(folder: str) -> list[tuple[str, bool, bool]]:
+    """Name, whether it is a folder, and whether it is a link, of everything in a folder, in the order of the names."""
+    found = []
+    try:
+        with os.scandir(folder) as entries:
+            for entry in entries:
+                try:
+                    found.append((entry.name, entry.is_dir(), entry.is_symlink()))
+                except OSError:
+                    found.append((entry.name, False, True))
+    except OSError:
+        return []
+    return sorted(found)
