@@ -7,6 +7,8 @@ as boundary. Pinched regions, islands and Möbius strips need no special care.
 
 from __future__ import annotations
 
+import io
+import math
 import os
 from dataclasses import dataclass
 from itertools import chain, compress
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 from .census import census
 from .errors import InputError, LackingError, Notice
 from .groups import Groups, by_label
+from .loading.content import open_regular, read_whole
 from .loading.model import Labels
 from .surface import CutFrom, Surface
 from .topology import Index
@@ -84,51 +87,56 @@ def read_labels(path: str) -> NDArray[Any]:
     Errors: InputError for a file that cannot be read or holds something else.
     """
     try:
-        # What is no regular file could block, or never end.
-        if os.path.exists(path) and not os.path.isfile(path):
-            raise InputError("is not a regular file, expected one label per face", path=path)
-        return _read_array(path) if path.lower().endswith(".npy") else _read_lines(path)
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", path=path) from None
+        with open_regular(path, None) as file:
+            data = read_whole(file, None)
+        return _read_array(data) if path.lower().endswith(".npy") else _read_lines(data, path)
+    except InputError as error:
+        error.path = path
+        raise
     except ValueError as error:
         raise InputError(f"{error}, expected one whole number per face", path=path) from None
 
 
-def _read_array(path: str) -> NDArray[Any]:
-    with open(path, "rb") as stream:
-        if stream.read(len(MAGIC)) != MAGIC:
-            raise ValueError("is not a .npy file")
+def _read_array(data: bytes) -> NDArray[Any]:
+    if not data.startswith(MAGIC):
+        raise ValueError("is not a .npy file")
+    stream = io.BytesIO(data)
     try:
-        # Mapped first: a header that promises more than the file holds is refused before memory is taken.
-        return np.array(np.load(path, mmap_mode="r", allow_pickle=False))
-    except (OSError, MemoryError):
+        version = np.lib.format.read_magic(stream)
+        header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        shape, in_columns, dtype = header(stream)
+        if dtype.hasobject:
+            raise ValueError("objects")
+        # Of what is there: a header that promises more than the file holds is refused before memory is taken.
+        array = np.frombuffer(data, dtype, math.prod(shape), stream.tell())
+        return array.reshape(shape, order="F" if in_columns else "C")
+    except MemoryError:
         raise
     except Exception as error:
         # A damaged header raises whatever the parts of Python's parser that numpy borrows may raise.
         raise ValueError(f"is a damaged .npy file ({error})") from None
 
 
-def _read_lines(path: str) -> NDArray[Any]:
+def _read_lines(data: bytes, path: str) -> NDArray[Any]:
+    text = data.decode("utf-8-sig")
+    lines = io.StringIO(text, newline=None)
     try:
-        with open(path, encoding="utf-8-sig") as stream:
-            filled = filter(None, map(str.strip, stream))
+        filled = filter(None, map(str.strip, lines))
+        first = next(filled, "")
+        if not _is_number(first):
             first = next(filled, "")
-            if not _is_number(first):
-                first = next(filled, "")
-            table = np.loadtxt(chain([first], stream), comments=None, ndmin=2) if first else np.empty((0, 1))
+        table = np.loadtxt(chain([first], lines), comments=None, ndmin=2) if first else np.empty((0, 1))
         if table.shape[1] == 1:
             return table[:, 0]
-    except UnicodeDecodeError:
-        raise
     except ValueError:
         pass
-    return _read_line_by_line(path)
+    return _read_line_by_line(text, path)
 
 
-def _read_line_by_line(path: str) -> NDArray[Any]:
+def _read_line_by_line(text: str, path: str) -> NDArray[Any]:
     """What Python alone takes for a number, or the line that is none, named."""
-    with open(path, encoding="utf-8-sig") as stream:
-        lines = [(place, line.strip()) for place, line in enumerate(stream, 1) if line.strip()]
+    stream = io.StringIO(text, newline=None)
+    lines = [(place, line.strip()) for place, line in enumerate(stream, 1) if line.strip()]
     if not _is_number(lines[0][1]):
         del lines[0]
     try:

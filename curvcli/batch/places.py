@@ -12,7 +12,7 @@ from typing import Any, cast
 from urllib.parse import unquote, urlsplit
 
 from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
-from ..loading.content import open_regular, read_limited
+from ..loading.content import open_regular, read_limited, read_stream
 from ..printable import shown
 from .walk import files_of, is_wild
 
@@ -146,7 +146,7 @@ def listed(source: str) -> list[str]:
     Errors: InputError for a list that cannot be read.
     """
     if source == "-":
-        text = sys.stdin.buffer.read()
+        text = read_stream(sys.stdin.buffer)
     else:
         try:
             with open(source, "rb") as stream:

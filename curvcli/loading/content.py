@@ -8,10 +8,12 @@ import io
 import os
 import stat
 import sys
+import time
 import zlib
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 from ..errors import InputError
+from ..sinks import wait_for
 
 _CHUNK = 1 << 24
 _FREE_INFLATION = 1 << 26
@@ -41,46 +43,101 @@ def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) ->
     return file
 
 
-def read_limited(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
+def read_limited(file: BinaryIO | io.FileIO, max_bytes: int | None, expected: str = "a mesh") -> bytes:
+    """All bytes of a file or stream, of which this is expected.
+
+    Errors: InputError if it is empty; those of `read_whole`.
+    """
+    data = read_whole(file, max_bytes)
+    if not data:
+        raise InputError(f"no data found, {expected} expected")
+    return data
+
+
+def read_whole(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
     """All bytes of a file or stream.
 
-    Errors: InputError if it cannot be read, is empty, holds more than max_bytes, or is a file that changes its size
-    meanwhile: a part of a mesh is often a mesh.
+    Errors: InputError if it cannot be read, holds more than max_bytes, or is a file that changes meanwhile: a part of a
+    mesh is often a mesh.
     """
     try:
-        begin = file.tell() if file.seekable() else 0
-        before = _size(file, begin)
+        descriptor = _descriptor(file)
+        before = None if descriptor is None else stamp(descriptor)
+        begin = 0 if before is None else file.tell()
         whole = max_bytes is None and before is not None
-        data = file.read() if whole else _read_up_to(file, sys.maxsize if max_bytes is None else max_bytes + 1)
-        after = _size(file, begin)
+        data = file.read() if whole else read_stream(file, None if max_bytes is None else max_bytes + 1)
+        after = None if descriptor is None else stamp(descriptor)
     except OSError as error:
         raise unreadable(error) from None
     if max_bytes is not None and len(data) > max_bytes:
         raise _too_large(f"more than {max_bytes} bytes", max_bytes)
-    if not data:
-        raise InputError("no data found, a mesh expected")
-    if before is not None and not before == after == len(data):
-        raise changed(before, len(data))
+    if before is not None and len(data) != before.size - begin:
+        raise changed(before.size - begin, len(data))
+    if before != after:
+        raise rewritten()
     return data
 
 
-def _size(file: BinaryIO | io.FileIO, begin: int = 0) -> int | None:
-    """How much of a regular file there is from a place on; None for other streams."""
-    try:
-        status = os.fstat(file.fileno())
-    except OSError:
+class Stamp(NamedTuple):
+    """What tells one state of a regular file from another. The times are those of its content and of its record."""
+
+    device: int
+    inode: int
+    size: int
+    written: int
+    recorded: int
+
+
+def stamp(descriptor: int) -> Stamp | None:
+    """The state of an open file, to be compared once it has been read; None for what is no regular file.
+
+    Times pass in ticks: within the tick of the last change another one would leave no trace, so its end is waited for.
+    """
+    status = os.fstat(descriptor)
+    if not stat.S_ISREG(status.st_mode):
         return None
-    return status.st_size - begin if stat.S_ISREG(status.st_mode) else None
+    if hasattr(time, "CLOCK_REALTIME_COARSE"):
+        tick = time.clock_getres(time.CLOCK_REALTIME_COARSE)
+        while -tick < (old := time.clock_gettime(time.CLOCK_REALTIME_COARSE) - status.st_ctime_ns / 1e9) < tick:
+            time.sleep(tick - old)
+    return Stamp(status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns)
 
 
-def _read_up_to(file: BinaryIO | io.FileIO, limit: int) -> bytes:
+def _descriptor(file: BinaryIO | io.FileIO) -> int | None:
+    """The number of the very file or pipe that a stream hands on; None for streams that make their bytes otherwise."""
+    raw = getattr(file, "raw", file)
+    return raw.fileno() if isinstance(raw, io.FileIO) or type(raw).__name__ == "SocketIO" else None
+
+
+def read_stream(file: BinaryIO | io.FileIO, limit: int | None = None) -> bytes:
+    """A stream to its end, or to a number of bytes; one that does not block is waited for.
+
+    Errors: InputError for a stream that has nothing to give now and cannot be waited for.
+    """
     # Piece by piece as they come: only between them does Python hear of a signal before it waits again.
     read = getattr(file, "read1", file.read)
-    parts = []
-    while limit and (part := read(min(_CHUNK, limit))):
+    left, parts = sys.maxsize if limit is None else limit, []
+    while left and (part := read(min(_CHUNK, left)) or _late(file, min(_CHUNK, left))):
         parts.append(part)
-        limit -= len(part)
+        left -= len(part)
     return b"".join(parts)
+
+
+def _late(file: BinaryIO | io.FileIO, most: int) -> bytes:
+    """What comes after a stream had nothing to give, which may be its end."""
+    descriptor = _descriptor(file)
+    if descriptor is None:
+        if file.read(1) is None:
+            raise InputError("a stream that has nothing to give yet, and does not block", hint="let it block")
+        return b""
+    if os.get_blocking(descriptor) and os.isatty(descriptor):  # where the end is a key that is pressed once
+        return b""
+    while True:
+        wait_for(descriptor, "read")
+        try:
+            return os.read(descriptor, most)
+        except BlockingIOError:
+            continue
 
 
 def inflate(data: bytes, max_bytes: int | None) -> bytes:
@@ -107,6 +164,11 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
 def changed(expected: int, read: int) -> InputError:
     """What is said of a file that is not as long as it was."""
     return InputError(f"{expected} bytes expected, {read} read: the file changed while it was read")
+
+
+def rewritten() -> InputError:
+    """What is said of a file that is no longer the one whose first bytes were read."""
+    return InputError("the file changed while it was read", hint="read it again once its writer is done")
 
 
 def unreadable(error: OSError | ValueError) -> InputError:

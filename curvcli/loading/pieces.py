@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
 
-from .content import changed, unreadable
+from .content import Stamp, changed, rewritten, stamp, unreadable
 
 _BUFFERS = 3  # one is read or parsed, the others are hashed
 
@@ -19,7 +18,7 @@ class Pieces:
 
     size: their number. left: how many have not been taken. hashed: whether their hash is wanted; another thread works
     it out meanwhile.
-    Errors: InputError where the file cannot be read, or changes its size.
+    Errors: InputError where the file cannot be read, or changes meanwhile.
     """
 
     piece = 1 << 21
@@ -30,6 +29,7 @@ class Pieces:
     def __init__(self, source: io.FileIO | bytes, *, hashed: bool = True) -> None:
         self._data, self._at = b"", 0
         self._file: io.FileIO | None = None
+        self._stamp: Stamp | None = None
         self._buffers: deque[tuple[bytearray, Future[None] | None]] = deque()
         self._hash = hashlib.sha256()
         self._hashing = ThreadPoolExecutor(1) if hashed else None
@@ -37,7 +37,8 @@ class Pieces:
             self._data, self.size = source, len(source)
             self._add_to_hash(source)
         else:
-            self._file, self.size = source, os.fstat(source.fileno()).st_size
+            self._file, self._stamp = source, _stamp(source)
+            self.size = self._stamp.size if self._stamp is not None else 0
         self.left = self.size
 
     def __enter__(self) -> Pieces:
@@ -96,8 +97,16 @@ class Pieces:
         self._at, self.left = len(data), 0
         return data
 
+    def check(self) -> None:
+        """Errors: InputError if the file is no longer what it was when it was opened, unless it has been read whole."""
+        now = None if self._file is None else _stamp(self._file)
+        if now is not None and now.size != self.size:
+            raise changed(self.size, now.size)
+        if now is not None and now != self._stamp:
+            raise rewritten()
+
     def sha256(self) -> str:
-        """The hash of all bytes, taken or not."""
+        """The hash of all bytes, taken or not; those of a file have all been read then, and of one state of it."""
         if self._file is not None:
             self.whole()
         assert self._hashing is not None
@@ -135,14 +144,21 @@ class Pieces:
         assert self._file is not None
         try:
             data = self._file.read()
-            now = os.fstat(self._file.fileno()).st_size
         except OSError as error:
             raise unreadable(error) from None
-        if len(data) != expected or now != self.size:
+        if len(data) != expected:
             raise changed(self.size, self.size - expected + len(data))
+        self.check()
         self._file = None
         self._add_to_hash(data)
         return data
 
     def _add_to_hash(self, data: bytes | memoryview) -> Future[None] | None:
         return None if self._hashing is None else self._hashing.submit(self._hash.update, data)
+
+
+def _stamp(file: io.FileIO) -> Stamp | None:
+    try:
+        return stamp(file.fileno())
+    except OSError as error:
+        raise unreadable(error) from None

@@ -103,7 +103,11 @@ def _read(
         kind, notices = recognise(pieces, wanted, by_name=input_format is None)
 
         def content() -> Made:
-            mesh = _parse(pieces, kind, weld, max_faces, normals)
+            try:
+                mesh = _parse(pieces, kind, weld, max_faces, normals)
+            except InputError:
+                hashed.check()  # what is wrong with a file that changes is that it changes
+                raise
             pieces.clear()
             hashed.clear()
             check_faces(mesh.polygons, max_faces)

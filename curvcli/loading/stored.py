@@ -22,7 +22,7 @@ def read_stored_table(path: str, *, max_bytes: int | None = None) -> dict[str, N
     """
     try:
         with open_regular(path, max_bytes) as file:
-            data = read_limited(file, max_bytes)
+            data = read_limited(file, max_bytes, "a table")
         return _columns(data, os.path.splitext(path)[1].lower())
     except InputError as error:
         error.path = path

@@ -21,7 +21,7 @@ def read_report(path: str, *, max_bytes: int | None = None) -> dict[str, Any]:
     """
     try:
         with open_regular(path, max_bytes) as file:
-            return decode(read_limited(file, max_bytes))
+            return decode(read_limited(file, max_bytes, "a report"))
     except InputError as error:
         error.path = path
         raise
