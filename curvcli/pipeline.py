@@ -90,6 +90,7 @@ def resolve(names: Iterable[str]) -> list[str]:
 ORDER = (
     *("status", "degree", "K", "kappa_g", "K_comb", "K_plus", "K_minus", "K_abs", "A", "A_mixed", "A_voronoi", "A_vec"),
     *("H_vec", "area_gradient", "h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2"),
+    "kappa_max",
     *("dir_1", "dir_2", "shape_index", "curvedness", "willmore", "willmore_hks", "willmore_perp", "willmore_normal"),
     "willmore_conformal",
 )

@@ -118,7 +118,9 @@ def test_status(name: str) -> None:
 @pytest.mark.parametrize("name", exact.NAMES)
 def test_totals(name: str, scale: str) -> None:
     factor = SCALES[scale]
-    found, wanted = analysis(name, factor).totals, exact.totals(name)
+    estimates = {q.total for q in passes.quantities() if passes.depends_on_scale(q.name)}
+    found = {key: value for key, value in analysis(name, factor).totals.items() if key not in estimates}
+    wanted = exact.totals(name)
     exponents = exact.length_exponents()
     slack = rounding(name, factor)
     area = wanted["area"]

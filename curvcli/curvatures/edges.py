@@ -181,3 +181,34 @@ def H_theta(theta: Column, edge_length: Column) -> Column:
 def H_tan(theta: Column, edge_length: Column, folded: Flags) -> Column:
     """Mean curvature of the edge by the tangent, as mitred parallel surfaces have it."""
     return null_where(folded, 2 * np.tan(theta / 2) * edge_length)
+
+
+@curvature_pass(
+    symbol="κ_e",
+    formula="2 sin(θ_e/2)|e| / area of the two faces at e = 2 sin(θ_e/2) / mean height of the two faces over e",
+    on="edge",
+    kind="density",
+    length_exponent=-1,
+    parity="odd",
+    signed=True,
+    preserves="1/r on a cylinder of radius r whose facets are equally wide and inscribed, however long they are",
+    boundary="null; also where θ_e is",
+    source="curvcli",
+)
+def kappa_across(surface: Surface, theta: Column, edge_length: Column, face_area: Column) -> Column:
+    """Curvature across the edge: its bend per width of its two faces, positive where convex.
+
+    The curvature of a tessellated fillet or cylinder. An edge that bends more than the angular step of a tessellation
+    is sharp: its radius is 0, and this number only tells how wide its faces are.
+    """
+    curvature = np.full(len(surface.edges), np.nan)
+
+    def divide(block: slice) -> None:
+        edges = surface.edges.inner_edges(block)
+        area = face_area.take(edges.one // 3) + face_area.take(edges.other // 3)
+        chord = 2 * np.sin(theta[edges.where] / 2) * edge_length[edges.where]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            curvature[edges.where] = chord / area
+
+    for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), divide)
+    return null_where(np.isnan(theta), curvature)

@@ -50,6 +50,22 @@ def principal_curvatures(h_signed: Column, K_density: Column, cell_area: Column)
     return larger, np.subtract(half, root, out=half), clamped
 
 
+@curvature_pass(
+    symbol="max |κ|",
+    formula="h/2 + √(h²/4 − K_density) = max(|κ₁|, |κ₂|)",
+    kind="density",
+    length_exponent=-1,
+    preserves="even in the normal: defined where the surface has no orientation; 1/kappa_max is the tightest radius",
+    boundary="null",
+    source="curvcli; κ₁ and κ₂ as in Sullivan, Curvatures of smooth surfaces",
+    pointwise=True,
+)
+def kappa_max(h: Column, K_density: Column) -> Column:
+    """The larger of |κ₁| and |κ₂|: how tightly the surface bends, inwards or outwards."""
+    half = 0.5 * h
+    return half + np.sqrt(np.maximum(half * half - K_density, 0.0))
+
+
 def koenderink(kappa_1: Column, kappa_2: Column) -> tuple[Column, Column]:
     """Koenderink's shape index (2/π) atan2(κ₁ + κ₂, κ₁ − κ₂) and curvedness √((κ₁² + κ₂²)/2), for κ₁ ≥ κ₂."""
     index = (2 / np.pi) * np.arctan2(kappa_1 + kappa_2, kappa_1 - kappa_2)
