@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable
 from functools import cached_property
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,9 @@ from .resolution import unscaled
 from .settings import DEFAULTS, Settings, parse_scales
 from .surface import Surface
 from .totals import lost, lost_totals, summed, totals
+
+if TYPE_CHECKING:
+    from .report.configuration import Configuration
 
 Array = NDArray[Any]
 
@@ -58,6 +61,7 @@ class Analysis:
         self.settings = settings
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
+        self.configuration: Configuration | None = None
         self._rules = self._applicable_rules() if checks is None else [rules[name] for name in checks]
         wanted = {
             *chosen,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from .plurals import counted
 from .stretch import Stretch, stretch
 from .surface import Surface
 from .totals import lost
+
+if TYPE_CHECKING:
+    from .report.configuration import Configuration
 
 Floats = NDArray[np.float64]
 
@@ -37,6 +40,7 @@ class SurfaceMap:
     def __init__(self, source: Any, image: Any) -> None:
         self.source = as_surface(source)
         self.image = _on_same_faces(self.source, image)
+        self.configuration: Configuration | None = None
 
     # ------------------------------------------------------------------ columns
 

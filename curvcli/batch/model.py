@@ -11,6 +11,7 @@ import msgspec
 
 from .._version import __version__
 from ..output.write import Appearance
+from ..report.configuration import Configuration
 
 # What the batch itself writes into its folder.
 MANIFEST, CSV, PARQUET = OWN = ("manifest.jsonl", "summary.csv", "summary.parquet")
@@ -34,7 +35,8 @@ class Item(msgspec.Struct, frozen=True):
 class Settings(msgspec.Struct, frozen=True, kw_only=True):
     """Everything that decides what is computed and written of each mesh, but for the mesh.
 
-    command: as typed; pages show it, and nothing else depends on it.
+    command: as typed; pages show it, and nothing else depends on it. configuration: the file that set some of this,
+    as reports name it.
     """
 
     passes: tuple[str, ...]
@@ -54,13 +56,14 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
     max_bytes: int | None = None
     appearance: Appearance = Appearance()
     command: str | None = None
+    configuration: Configuration | None = None
 
     def digest(self) -> str:
         """The hash by which a later run knows that it was asked for the same; plug-ins count with their versions."""
         from importlib.metadata import entry_points
 
         plug_ins = [(one.name, one.dist and one.dist.version) for one in entry_points(group="curvcli.passes")]
-        which = msgspec.to_builtins([msgspec.structs.replace(self, command=None), sorted(plug_ins)])
+        which = msgspec.to_builtins([msgspec.structs.replace(self, command=None, configuration=None), sorted(plug_ins)])
         return hashlib.sha256(json.dumps(which).encode("ascii")).hexdigest()  # not UTF-8, which some labels are not
 
 

@@ -63,6 +63,7 @@ def _analysed(item: Item, settings: Settings) -> Analysis:
     with _timed(timings, "check"):
         _ = analysis.checks
     analysis.timings |= timings
+    analysis.configuration = settings.configuration
     return analysis
 
 

@@ -14,6 +14,7 @@ from ..exits import FAILED_CHECK, OK, exit_code, exit_code_of_one, stops_all, wo
 from ..loading.limits import parse_weld
 from ..memory import ran_out
 from . import options
+from .configured import configuration
 from .talk import internal, say
 from .wanted import one_stdout, stdin_once, table_option
 
@@ -102,7 +103,7 @@ class Run:
         from ..tables import TABLES
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
-        self.weld = parse_weld(weld)
+        self.weld, self.configuration = parse_weld(weld), configuration()
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
         self.passes, at_scale = options.chosen(passes, conventions)
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
@@ -171,6 +172,7 @@ class Run:
             surface = load(source, weld=self.weld, **asked, **self.limits)
         with phase(f"computing {mesh}", self.quiet) as computing:
             analysis = analyze(surface, self.passes, weld=self.weld, **self.conventions)
+        analysis.configuration = self.configuration
         analysis.timings |= {"read": reading.seconds, "compute": computing.seconds}
 
         def check() -> None:

@@ -16,6 +16,7 @@ from ..exits import worst
 from ..loading.limits import parse_weld
 from ..plurals import counted
 from . import options
+from .configured import configuration
 from .talk import say
 
 if TYPE_CHECKING:
@@ -156,6 +157,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
         weld=parse_weld(weld),
         appearance=appearance,
         command=shell_quoted(["curvcli", *sys.argv[1:]]),
+        configuration=configuration(),
         **conventions,
     )
 
@@ -213,7 +215,8 @@ def _tell(batch: Batch, begun: int) -> None:
     from rich import box
     from rich.table import Table
 
-    from ..report.console import Console
+    from ..report.configuration import configured
+    from ..report.console import Console, show_configuration
 
     counts = Counter((row.status, row.exit_code) for row in batch.rows)
     table = Table(box=box.SIMPLE_HEAD)
@@ -224,6 +227,7 @@ def _tell(batch: Batch, begun: int) -> None:
         table.add_row(status.replace("_", " "), str(code), f"{count:,}")
     console = Console(highlight=False)
     console.print(table)
+    show_configuration(console, configured(batch.settings.configuration))
     missing = len(batch.items) - len(batch.rows)
     kept = len(batch.items) - begun
     parts = [f"{len(batch.rows):,} of {counted(len(batch.items), 'mesh', 'meshes')}"]

@@ -14,6 +14,7 @@ from ..exits import exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
 from ..memory import ran_out
 from . import options
+from .configured import configuration
 from .talk import internal, say
 from .wanted import stdin_once
 
@@ -120,7 +121,8 @@ class Run:
 
         with Outputs([] if self.output == "-" else [self.output], self.force) as outputs:
             found = [self.one(mesh) for mesh in self.meshes]
-            report = report_of(self.plan.rules, found, worst([mesh.exit_code for mesh in found]))
+            code = worst([mesh.exit_code for mesh in found])
+            report = report_of(self.plan.rules, found, code, configuration())
             if self.output == "-":
                 self.show(report)
             else:

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 from ..exits import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
+from .configured import configuration
 from .wanted import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
@@ -154,6 +155,7 @@ def compare_map(
     # Outputs are checked before the first surface is read.
     with Outputs([one.path for one in wanted], force) as files:
         found = _read(a, b, welding, quiet, limits)
+        found.configuration = configuration()
         for one in wanted:
             with files.open(one.path) as stream:
                 _write(stream, found, one.kind, one.suffix, precision)

@@ -51,7 +51,9 @@ def compare(
     from ..output.tables import parse_precision, write_table
     from ..report import accuracy as errors
     from ..report import differences
+    from ..report.configuration import configured
     from ..report.model import encode
+    from .configured import configuration
 
     formats = [format_of(p, name=stream_format if p == "-" else None, kinds=("table", "report")) for p in outputs]
     to_stdout = one_stdout(outputs, as_json, get, stream_format)
@@ -71,6 +73,7 @@ def compare(
             sides = both_sides(a, b, given, conventions, limits, quiet)
             found = _compare(sides, Tolerance(rtol, atol), only, ignore, common)
             table, summary = partial(differences.table, found), partial(differences.show, found, verbose)
+        found.configuration = configured(configuration())
         for path, one in zip(outputs, formats, strict=True):
             with files.open(path) as stream:
                 if one.kind == "report":

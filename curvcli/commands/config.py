@@ -9,9 +9,7 @@ from typing import Any
 import click
 
 from ..errors import UsageError
-from .talk import say
-
-OWN, SHARED = "curvcli.toml", "pyproject.toml"
+from .nearest import SHARED, search
 
 # Where the context remembers which file applied, and which tables it has.
 META = "curvcli.configuration"
@@ -19,16 +17,24 @@ META = "curvcli.configuration"
 # Options that do something else than set a default.
 _NOT_DEFAULTS = ("help", "schema")
 
+# What only the command line may name, by the names of the parameters: files that are written, files and addresses that
+# are read, and the leave to overwrite. A configuration may have come with a download.
+_OUTPUTS = ("output", "outputs", "folder", "tables", "force")
+_INPUTS = ("files_from", "scheduler")
+
 Find = Callable[[str], click.Command | None]
 
 
-def configure(context: click.Context, given: str | None, find: Find) -> None:
-    """Take the defaults of the commands from the file given, or from the nearest one upward, if there is any.
+def configure(context: click.Context, given: str | None, find: Find, without: bool = False) -> None:
+    """Take the defaults of the commands from the file given, or from the nearest one, if there is any.
 
-    find: a command by its name. Errors: UsageError for a file that cannot be read, an unknown table or key (with the
-    nearest), a value of the wrong type.
+    find: a command by its name. without: no file applies. Errors: UsageError for a file that cannot be read, an unknown
+    table or key (with the nearest), a value of the wrong type, a key that only the command line may set.
     """
-    path = given or nearest(_here())
+    if without and given is not None:
+        raise UsageError("--config and --no-config exclude each other")
+    here = _here()
+    path = given or (None if without or here is None else nearest(here))
     if path is None:
         return
     tables = read(path)
@@ -36,35 +42,17 @@ def configure(context: click.Context, given: str | None, find: Find) -> None:
     context.meta[META] = (path, tables)
 
 
-def _here() -> str:
-    """The working folder; the root of all where somebody has removed it."""
+def _here() -> str | None:
+    """The working folder; None where somebody has removed it, which then has no configuration."""
     try:
         return os.getcwd()
     except OSError:
-        return os.path.abspath(os.sep)
+        return None
 
 
 def nearest(folder: str) -> str | None:
     """The nearest curvcli.toml, or pyproject.toml that speaks of curvcli, in a folder or one above it."""
-    while True:
-        own, shared = (os.path.join(folder, name) for name in (OWN, SHARED))
-        if os.path.isfile(own):
-            return own
-        if os.path.isfile(shared) and _has_table(shared):
-            return shared
-        above = os.path.dirname(folder)
-        if above == folder:
-            return None
-        folder = above
-
-
-def _has_table(path: str) -> bool:
-    # Most such files never name us; those are not even parsed.
-    try:
-        with open(path, "rb") as stream:
-            return b"curvcli" in stream.read() and _table(path) is not None
-    except OSError:
-        return False
+    return search(folder, _table)
 
 
 def read(path: str) -> dict[str, Any]:
@@ -124,10 +112,23 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
         option = options.get(key.replace("_", "-"))
         if option is None or option.name is None:
             raise UsageError(f"{place}: there is no such option; {_near(key.replace('_', '-'), options)}")
+        _refuse(option.name, value, place)
         if option.name in found:
             raise UsageError(f"{place}: is given twice in two spellings")
         found[option.name] = _checked(option, value, place)
     return found
+
+
+def _refuse(name: str, value: Any, place: str) -> None:
+    """Errors: UsageError for what only the command line may set."""
+    if name in _OUTPUTS:
+        raise UsageError(f"{place}: a configuration names no outputs and overwrites none; give it on the command line")
+    if name in _INPUTS:
+        raise UsageError(f"{place}: a configuration names no inputs; give it on the command line")
+    if name == "regions":
+        for label in value if isinstance(value, list) else [value]:
+            if isinstance(label, str) and (os.path.basename(label) != label or os.path.splitext(label)[1]):
+                raise UsageError(f"{place}: a configuration names no files of labels; give it on the command line")
 
 
 def _near(name: str, known: Iterable[str]) -> str:
@@ -170,25 +171,3 @@ def _one(option: click.Option, value: Any, place: str) -> Any:
     except click.BadParameter as error:
         raise UsageError(f"{place}: {error.message.rstrip('.')}") from None
     return value
-
-
-def tell(context: click.Context) -> None:
-    """Say on stderr which file applies to a command."""
-    path, tables = context.meta.get(META, (None, {}))
-    if path is not None:
-        name = context.command.name or ""
-        keys = ", ".join(tables.get(name, {}))
-        say(f"configuration: {path}: " + (f"{heading(path, name)} sets {keys}" if keys else f"nothing for {name}"))
-
-
-def blamed(context: click.Context, error: click.UsageError | UsageError) -> click.UsageError | UsageError:
-    """The refusal of a command's options, with a word on which of them the file sets."""
-    path, tables = context.meta[META]
-    name = context.invoked_subcommand or ""
-    keys = ", ".join(tables.get(name, {}))
-    if not keys:
-        return error
-    note = f"; {heading(path, name)} of {path} sets {keys}"
-    if isinstance(error, click.UsageError):
-        return click.UsageError(error.format_message().rstrip(".") + note, error.ctx)
-    return UsageError(f"{error}{note}")

@@ -95,6 +95,8 @@ def measure(
 
     from ..output.atomic import Outputs
     from ..output.tables import parse_precision
+    from ..report.configuration import configured
+    from .configured import configuration
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
@@ -105,6 +107,7 @@ def measure(
     with Outputs([one.path for one in wanted], force) as files:
         measures = _read(file, welding, max_writhe, quiet, limits)
         report = _report(measures, welding, unit)
+        report.configuration = configured(configuration())
         for one in wanted:
             with files.open(one.path) as stream:
                 _write(stream, measures, report, one.kind, one.suffix, precision)

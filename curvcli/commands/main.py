@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any, NoReturn
@@ -16,7 +16,8 @@ from ..errors import CurvcliError, UsageError
 from ..exits import FAILED_CHECK, INPUT, INTERNAL, INTERRUPTED, OK, USAGE, exit_code
 from ..memory import NUMPY, ran_out, require
 from .allocation import keep_memory
-from .config import META, blamed, configure
+from .config import META, configure
+from .configured import blamed
 from .deferred import defer_imports
 from .signals import Ending, Handler
 from .streams import complete, settle
@@ -93,7 +94,8 @@ class LazyGroup(click.Group):
             raise click.UsageError(f"no such command {name!r}, expected one of {', '.join(COMMANDS)}{guess}", ctx)
         told = name in UNCONFIGURED or set(args).intersection(ctx.help_option_names)
         if not ctx.resilient_parsing and not told:
-            configure(ctx, ctx.params.get("config"), lambda command: self.get_command(ctx, command))
+            find: Callable[[str], click.Command | None] = lambda command: self.get_command(ctx, command)  # noqa: E731
+            configure(ctx, ctx.params.get("config"), find, ctx.params.get("no_config", False))
         require(NUMPY)
         keep_memory()
         defer_imports()
@@ -106,9 +108,10 @@ class LazyGroup(click.Group):
     "--config",
     metavar="FILE",
     help="Defaults of options, one table per command; else [tool.curvcli] of the nearest pyproject.toml, or "
-    "curvcli.toml, in this folder or above.",
+    "curvcli.toml, in this folder or above, up to the repository's root or the home folder.",
 )
-def cli(config: str | None) -> None:
+@click.option("--no-config", is_flag=True, help="Take no defaults from any file.")
+def cli(config: str | None, no_config: bool) -> None:
     """Curvatures of triangle meshes (OBJ, PLY, STL) that keep their integral relations exactly.
 
     Gauss and mean curvature, areas and Willmore energies at every vertex, after J. M. Sullivan,

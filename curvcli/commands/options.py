@@ -27,7 +27,8 @@ class Finite(click.FloatRange):
 
 def _verbosity(context: click.Context, option: click.Parameter, value: int) -> int:
     if value and not context.resilient_parsing:
-        from .config import META, tell
+        from .config import META
+        from .configured import tell
 
         if META in context.meta:
             tell(context)

@@ -13,7 +13,8 @@ from rich.table import Table
 
 from .._version import __version__
 from ..accuracy import ErrorNorms
-from .console import report_console
+from .configuration import Configured
+from .console import report_console, show_configuration
 from .differences import Side
 from .fitting import add_numbers, fitting, plain_table, roomy_table
 
@@ -50,6 +51,7 @@ class Accuracy(msgspec.Struct):
     errors: dict[str, ColumnErrors]
     unmatched: list[str]
     notes: list[str]
+    configuration: Configured = msgspec.UNSET
 
 
 def model(
@@ -91,6 +93,7 @@ def show(found: Accuracy) -> None:
     console.print(f"mesh [bold]{escape(found.mesh.path)}[/bold], exact values [bold]{escape(found.exact.path)}[/bold]")
     for note in found.notes:
         console.print(f"[yellow]note[/yellow] {escape(note)}")
+    show_configuration(console, found.configuration)
     console.print(fitting(console, _errors(found)))
     if found.unmatched:
         console.print(f"[dim]without an exact value: {', '.join(found.unmatched)}[/dim]")

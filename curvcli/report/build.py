@@ -18,6 +18,7 @@ from ..groups import Groups
 from ..once import once
 from ..surface import Surface
 from ..totals import competing_normals, constant_mean_curvature, steiner
+from .configuration import configured
 from .model import (
     CONVENTIONS,
     CheckRow,
@@ -67,6 +68,7 @@ def model(analysis: Analysis) -> Report:
         checks=[CheckRow(**vars(check)) for check in analysis.checks],
         warnings=remarks(analysis.notices),
         timings=analysis.timings,
+        configuration=configured(analysis.configuration),
     )
 
 

@@ -6,6 +6,7 @@ import msgspec
 
 from .._version import __version__
 from ..printable import shown
+from .configuration import Configuration, Configured, configured
 from .model import Remark, Value, encode
 
 # What `kind` and `status` can be.
@@ -75,11 +76,14 @@ class CheckReport(msgspec.Struct):
     rules: list[Rule]
     meshes: list[CheckedMesh]
     exit_code: int
+    configuration: Configured = msgspec.UNSET
 
 
-def report_of(rules: list[Rule], meshes: list[CheckedMesh], exit_code: int) -> CheckReport:
+def report_of(
+    rules: list[Rule], meshes: list[CheckedMesh], exit_code: int, configuration: Configuration | None = None
+) -> CheckReport:
     """The report of one call."""
-    return CheckReport(1, __version__, rules, meshes, exit_code)
+    return CheckReport(1, __version__, rules, meshes, exit_code, configured(configuration))
 
 
 def failed_input(path: str, message: str, exit_code: int) -> CheckedMesh:

@@ -15,7 +15,7 @@ from ..plurals import counted
 from ..printable import shown
 from .check import ERROR, FAIL, IDENTITY, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, Outcome
 from .check_lines import FIRST, MOST, WARNINGS, all_failures, by_name, meshes_pass, scopes, warning, warnings
-from .console import MARKS, Console, report_console
+from .console import MARKS, Console, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table, roomy_table
 
 # The least width of a column of sentences, or of paths.
@@ -46,6 +46,7 @@ def show(report: CheckReport, verbose: int = 0, stream: TextIO | None = None) ->
     if len(report.meshes) > 1:
         console.print(fitting(console, _meshes(report, verbose)))
     console.print(escape(summary(report)), soft_wrap=True)
+    show_configuration(console, report.configuration)
     if any(mesh.status == PASS for mesh in report.meshes) and any(rule.name == "gauss_bonnet" for rule in report.rules):
         console.print("[dim]Gauss–Bonnet certifies the curvatures and χ, not that the mesh is sound.[/dim]")
 

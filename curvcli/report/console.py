@@ -5,6 +5,9 @@ from __future__ import annotations
 from typing import TextIO
 
 import rich.console
+from rich.markup import escape
+
+from .configuration import Configured, sentence
 
 # By the status of a check.
 MARKS = {
@@ -24,6 +27,12 @@ class Console(rich.console.Console):
     def on_broken_pipe(self) -> None:
         """Called while the BrokenPipeError is handled."""
         raise
+
+
+def show_configuration(console: rich.console.Console, field: Configured) -> None:
+    """A line below the verdict where a configuration file has to do with it."""
+    if told := sentence(field):
+        console.print(escape(told), style="yellow", soft_wrap=True)
 
 
 def report_console(least: int = 0, stream: TextIO | None = None) -> Console:

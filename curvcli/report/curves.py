@@ -12,6 +12,7 @@ from ..curves.identities import Identity
 from ..curves.measure import CurveMeasures
 from ..finite import or_none
 from ..loading.model import Labels
+from .configuration import Configured
 from .model import CheckRow, Input, Remark, input_of, remarks, vector
 
 Vector = list[float | None] | None
@@ -70,6 +71,7 @@ class CurveReport(msgspec.Struct):
     curves: list[CurveRow]
     checks: list[CheckRow]
     warnings: list[Remark]
+    configuration: Configured = msgspec.UNSET
 
 
 def model(measures: CurveMeasures, *, weld: str = "none", unit: str | None = None) -> CurveReport:

@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..plurals import counted
-from .console import MARKS, report_console
+from .console import MARKS, report_console, show_configuration
 from .curves import CurveReport, CurveRow
 from .fitting import add_numbers, fitting, plain_table, roomy_table, with_sentences
 from .model import CheckRow
@@ -31,6 +31,7 @@ def show(report: CurveReport, verbose: int = 0) -> None:
         more = counted(len(report.curves) - SHOWN, "more curve")
         console.print(f"[dim]{more}; -v shows all, --json tells all of each[/dim]")
     console.print(fitting(console, _checks(report.checks, verbose)))
+    show_configuration(console, report.configuration)
     told = "Σψ: total curvature; writhe in turns; holonomy ≡ 2π · writhe. "
     proves = "unknotted: Σψ ≤ 4π proves it of a curve that does not cross itself; more proves nothing."
     console.print(f"[dim]{told}{proves}[/dim]")

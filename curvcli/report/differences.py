@@ -14,7 +14,8 @@ from rich.table import Table
 from .._version import __version__
 from ..cell_differences import MovedColumn
 from ..differences import Difference, Tolerance
-from .console import report_console
+from .configuration import Configured
+from .console import report_console, show_configuration
 from .fitting import fitting, plain_table, roomy_table
 
 # Rows of the summary; all with -v.
@@ -70,6 +71,7 @@ class Comparison(msgspec.Struct):
     differences: list[Change]
     columns: list[ChangedColumn]
     notes: list[str]
+    configuration: Configured = msgspec.UNSET
 
 
 def model(
@@ -128,6 +130,7 @@ def show(found: Comparison, verbose: int = 0) -> None:
     console.print(f"B [bold]{escape(found.b.path)}[/bold] ({found.b.kind})")
     for note in found.notes:
         console.print(f"[yellow]note[/yellow] {escape(note)}")
+    show_configuration(console, found.configuration)
     limits = f"rtol {found.rtol:g}, atol {found.atol:g}"
     if found.equal:
         console.print(f"[green]same[/green]: {found.compared:,} values compared, none differs beyond {limits}")

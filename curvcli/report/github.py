@@ -8,6 +8,7 @@ from ..printable import shown
 from .check import CheckReport
 from .check_lines import all_failures, warning, warnings
 from .check_text import summary
+from .configuration import sentence
 
 # A workflow command ends with its line; in properties the colon and the comma have a meaning too.
 _DATA = str.maketrans({"%": "%25", "\r": "%0D", "\n": "%0A"})
@@ -16,13 +17,16 @@ _PROPERTY = _DATA | str.maketrans({":": "%3A", ",": "%2C"})
 
 def write_github(report: CheckReport) -> bytes:
     """An `::error` for each failure, the first of each check and a count of the others; a `::warning` for each warning
-    that the text report shows; a line that sums up."""
+    that the text report shows; a `::notice` of a configuration file
+    that has to do with the verdict; a line that sums up."""
     failed, others = all_failures(report.meshes)
     lines = [_command("error", f"curvcli {one.outcome.label}", one.text, one.mesh.path) for one in failed]
     if others:
         lines.append(_command("error", "curvcli", others))
     told, _ = warnings(report.meshes)
     lines += [_command("warning", f"curvcli {one.code}", warning(mesh, one), mesh.path) for mesh, one in told]
+    if configuration := sentence(report.configuration):
+        lines.append(_command("notice", "curvcli configuration", configuration))
     lines.append(f"curvcli: {summary(report)}")
     return ("\n".join(lines) + "\n").encode()
 

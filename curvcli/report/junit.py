@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from io import BytesIO
 
+import msgspec
 from junitparser import Attr, Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 
 from ..printable import shown
@@ -21,6 +22,9 @@ def write_junit(report: CheckReport) -> bytes:
     document = JUnitXml("curvcli check")
     for mesh in report.meshes:
         suite = TestSuite(shown(mesh.path))
+        if not isinstance(report.configuration, msgspec.UnsetType):
+            suite.add_property("curvcli.configuration", report.configuration.file)
+            suite.add_property("curvcli.configuration.sets", report.configuration.words)
         suite.add_testcases([_case(mesh, outcome) for outcome in mesh.outcomes])
         document.add_testsuite(suite)
     document.update_statistics()  # type: ignore[no-untyped-call]

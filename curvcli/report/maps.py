@@ -12,7 +12,8 @@ from rich.table import Table
 
 from .._version import __version__
 from ..finite import or_none
-from .console import MARKS, report_console
+from .configuration import Configured, configured
+from .console import MARKS, report_console, show_configuration
 from .fitting import fitting, with_sentences
 from .model import CheckRow, Input, Remark, input_of, remarks
 
@@ -50,6 +51,7 @@ class MapReport(msgspec.Struct):
     harmonic: Harmonic
     checks: list[CheckRow]
     warnings: list[Remark]
+    configuration: Configured = msgspec.UNSET
 
 
 def model(f: SurfaceMap) -> MapReport:
@@ -68,6 +70,7 @@ def model(f: SurfaceMap) -> MapReport:
         harmonic=Harmonic(or_none(residual), vertex, or_none(rounding)),
         checks=[CheckRow(**vars(check)) for check in f.checks],
         warnings=remarks(notices),
+        configuration=configured(f.configuration),
     )
 
 
@@ -85,6 +88,7 @@ def show(f: SurfaceMap) -> None:
     console.print(f"[bold]{' → '.join(names)}[/bold]  V {f.source.n_vertices:,}  F {f.source.n_faces:,}")
     for remark in report.warnings:
         console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}")
+    show_configuration(console, report.configuration)
     console.print(fitting(console, _quantities(report)))
     rows = [
         (

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from ..checks.base import rules
 from ..printable import shown
+from .configuration import sentence
 from .model import Report
 from .proof import proof
 from .words import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
@@ -33,6 +34,7 @@ def markdown(report: Report, command: str | None = None) -> str:
         "\n".join(_warnings(report)),
         _checks(report),
         _text(proof(report)),
+        _text(sentence(report.configuration) or ""),
         _topology(report),
         _folded(
             "Totals and conventions",

@@ -9,6 +9,7 @@ import msgspec
 
 from ..declare import passes
 from ..errors import Notice
+from .configuration import Configured
 from .statistics import ColumnStatistics
 
 if TYPE_CHECKING:
@@ -158,6 +159,7 @@ class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
     checks: list[CheckRow]
     warnings: list[Remark]
     timings: dict[str, float]
+    configuration: Configured = msgspec.UNSET
 
 
 def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:

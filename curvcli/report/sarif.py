@@ -8,6 +8,8 @@ from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
+import msgspec
+
 from .._version import __version__
 from ..printable import shown
 from .check import INPUT, CheckedMesh, CheckReport, Outcome, sentence
@@ -29,12 +31,22 @@ def write_sarif(report: CheckReport) -> bytes:
         "tool": {
             "driver": {"name": "curvcli", "version": __version__, "rules": [_rule(rule) for rule in report.rules]}
         },
-        "invocations": [{"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}],
+        "invocations": [_invocation(report)],
         "artifacts": [_artifact(mesh) for mesh in report.meshes],
         "results": results,
         "columnKind": "unicodeCodePoints",
     }
     return encode({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})
+
+
+def _invocation(report: CheckReport) -> dict[str, Any]:
+    """The exit code, and the configuration file that has to do with it."""
+    found: dict[str, Any] = {"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}
+    if not isinstance(report.configuration, msgspec.UnsetType):
+        text = report.configuration.sentence
+        found["toolConfigurationNotifications"] = [{"level": "note", "message": {"text": text}}]
+        found["properties"] = {"configuration": msgspec.to_builtins(report.configuration)}
+    return found
 
 
 def uri_of(path: str) -> str:

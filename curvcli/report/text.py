@@ -10,7 +10,7 @@ from rich.table import Table
 
 from ..settings import in_words
 from .build import model
-from .console import MARKS, report_console
+from .console import MARKS, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table
 from .model import CheckRow, Report
 from .proof import holds, proof
@@ -43,6 +43,7 @@ def show(analysis: Analysis, verbose: int = 0) -> None:
     console.print(fitting(console, _checks(report.checks, verbose)))
     failed = not holds(report)
     console.print(escape(proof(report)), style="red" if failed else "dim", soft_wrap=not console.is_terminal)
+    show_configuration(console, report.configuration)
     console.print(_totals(report))
     if report.regions:
         console.print(fitting(console, (_regions(report, digits) for digits in (6, 4, 3))))

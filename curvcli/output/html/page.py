@@ -13,6 +13,7 @@ import numpy as np
 from ...checks.base import rules
 from ...printable import shown
 from ...report.build import model
+from ...report.configuration import sentence
 from ...report.proof import holds, proof
 from ...report.quantities import unmarked
 from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
@@ -78,6 +79,7 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         verdict=verdict(report),
         holds=holds(report),
         proof=proof(report),
+        configuration=sentence(report.configuration),
         shape=shape(report.topology),
         conventions=conventions(report),
         checks=listed(report.checks),

@@ -1,0 +1,49 @@
+"""Which configuration file applies where none is named: the nearest one that belongs to who works here."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Callable
+from typing import Any
+
+OWN, SHARED = "curvcli.toml", "pyproject.toml"
+
+# Marks the root of a repository; a file in worktrees and submodules.
+_REPOSITORY = ".git"
+
+
+def search(here: str, table: Callable[[str], Any]) -> str | None:
+    """The nearest curvcli.toml, or pyproject.toml that speaks of curvcli, in a folder or one above it.
+
+    The search ends at the root of the repository, else at the home folder, and before a folder above where everybody
+    may write, such as /tmp. table: what a pyproject.toml says of curvcli.
+    """
+    home = os.path.realpath(os.path.expanduser("~"))
+    while True:
+        own, shared = (os.path.join(here, name) for name in (OWN, SHARED))
+        if os.path.isfile(own):
+            return own
+        if os.path.isfile(shared) and _has_table(shared, table):
+            return shared
+        above = os.path.dirname(here)
+        ends = os.path.lexists(os.path.join(here, _REPOSITORY)) or os.path.realpath(here) == home
+        if ends or above == here or _anybody_writes(above):
+            return None
+        here = above
+
+
+def _anybody_writes(folder: str) -> bool:
+    try:
+        return os.name == "posix" and bool(os.stat(folder).st_mode & stat.S_IWOTH)
+    except OSError:
+        return True
+
+
+def _has_table(path: str, table: Callable[[str], Any]) -> bool:
+    # Most such files never name us; those are not even parsed.
+    try:
+        with open(path, "rb") as stream:
+            return b"curvcli" in stream.read() and table(path) is not None
+    except OSError:
+        return False
