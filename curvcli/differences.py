@@ -191,11 +191,14 @@ def _piece(piece: Mapping[str, Any], prefix: Key, flatness: float) -> Iterator[t
     for section, name, leaf in (
         ("cmc", "H", Leaf(None, power(area, -0.5), noise * power(edge, -1))),
         ("cmc", "residual_max", Leaf(None, 0.0, noise * edge)),
+        ("cmc", "residual_density_max", Leaf(None, 0.0, noise * power(edge, -1))),
         ("minimal", "H_vec_max", Leaf(None, 0.0, noise * edge)),
+        ("minimal", "H_vec_density_max", Leaf(None, 0.0, noise * power(edge, -1))),
         ("normals", "angle_max", Leaf(None, 0.0, noise * flatness)),
         ("normals", "angle_mean", Leaf(None, 0.0, noise * flatness)),
     ):
-        if piece.get(section) is not None:
+        # Reports of older versions lack some.
+        if name in (piece.get(section) or {}):
             yield (*prefix, section, name), leaf._replace(value=piece[section][name])
 
 

@@ -83,34 +83,45 @@ def _sum(segments: Segments, quantity: Quantity, column: Any) -> Floats:
 
 
 def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
-    """How close to constant mean curvature, over interior vertices: H = −Σ **H**·**A** / Σ|**A**|², positive on convex
-    bodies, `residual_max` = max |**H**_p + H **A**_p|, and `H_vec_max` = max |**H**_p|, 0 on minimal surfaces.
+    """How close to constant mean curvature and to a minimal surface.
 
-    Vertices where **H** is null are left out of both sums. H and its residual are NaN on groups without an orientation,
-    where no vertex is inside, and where all that is left of **A** is rounding: Σ|**A**|² ≤ 1e-24 ΣA².
+    `H` = −Σ **H**·**A**/A_p ÷ Σ|**A**|²/A_p, the projection in the area measure, positive on convex bodies.
+    Over interior vertices: `residual_max`, the largest |**H**_p + H **A**_p|, and `residual_density_max`, the largest
+    of it per A_p. Over all that are not on the boundary, other stars than fans included: `H_vec_max`, the largest
+    |**H**_p|, and `H_vec_density_max`, the largest |**H**_p|/A_p.
+
+    Vertices where **H** is null are left out. H and its residuals are NaN on groups without an orientation, where no
+    vertex is inside, and where all that is left of **A** is rounding: Σ|**A**|²/A ≤ 1e-24 ΣA.
     """
-    vertices, inside = groups.vertices, surface.interior
-    products, squares, areas, sizes = np.full((4, surface.n_vertices), np.nan)
+    vertices, inside, rim = groups.vertices, surface.interior, surface.boundary
+    products, squares, areas, sizes, densities = np.full((5, surface.n_vertices), np.nan)
     for block in slices(surface.n_vertices):
         H_vec, A_vec, area = columns["H_vec"][:, block], columns["A_vec"][:, block], columns["star_area"][block]
-        product = dot(H_vec, A_vec)
-        known = inside[block] & ~np.isnan(product)
-        for target, values in ((products, product), (squares, dot(A_vec, A_vec)), (areas, area * area)):
-            np.copyto(target[block], values, where=known)
-        np.copyto(sizes[block], np.sqrt(dot(H_vec, H_vec)), where=inside[block])
+        product, size = dot(H_vec, A_vec), np.sqrt(dot(H_vec, H_vec))
+        known = inside[block] & ~np.isnan(product) & (area > 0)
+        for target, values in ((products, product), (squares, dot(A_vec, A_vec))):
+            np.divide(values, area, out=target[block], where=known)
+        np.copyto(areas[block], area, where=known)
+        np.copyto(sizes[block], size, where=~rim[block])
+        np.divide(size, area, out=densities[block], where=~rim[block] & (area > 0))
     square = vertices.sum(squares)
     least = np.maximum(LOST * LOST * vertices.sum(areas), np.finfo(np.float64).tiny)
-    H = -vertices.sum(products) / np.where(square > least, square, np.nan)
-    residual = squares  # no longer needed
+    H = 0.0 - vertices.sum(products) / np.where(square > least, square, np.nan)
+    residual, residual_density = squares, areas  # no longer needed
     for block in slices(surface.n_vertices):
         each_H = H[0] if vertices.label is None else np.append(H, np.nan)[vertices.label[block]]
         rest = columns["H_vec"][:, block] + each_H * columns["A_vec"][:, block]
-        np.copyto(residual[block], np.sqrt(dot(rest, rest)), where=inside[block])
+        size = np.sqrt(dot(rest, rest))
+        np.copyto(residual[block], size, where=inside[block])
+        area = columns["star_area"][block]
+        np.divide(size, area, out=residual_density[block], where=inside[block] & (area > 0))
     orientable = census(surface, groups).orientable
     return {
         "H": np.where(orientable, H, np.nan),
         "residual_max": np.where(orientable, vertices.max(residual), np.nan),
+        "residual_density_max": np.where(orientable, vertices.max(residual_density), np.nan),
         "H_vec_max": vertices.max(sizes),
+        "H_vec_density_max": vertices.max(densities),
     }
 
 

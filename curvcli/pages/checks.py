@@ -39,6 +39,14 @@ A requirement that fails says how many places there are and names the first. Tho
 |---|---|---|
 """
 
+_CRITICAL = """
+`minimal` and `cmc` test numbers without a unit: the verdict is the same in millimetres and in metres, and a finer
+mesh is not a better one for its smaller stars. They ask whether the *mesh* is critical for its area, alone or for
+its volume. A mesh that only approximates such a surface need not be. On irregular triangulations of a round sphere
+the largest |H_p + H A_p|/A_p does not tend to 0, however fine they are, while H itself tends to 2/r. Surfaces
+evolved by a soap film solver pass. `minimal` covers lines where three films meet. Rounding of a star counts as 0; a
+vertex without a value fails the requirement."""
+
 _ELSEWHERE = r"""
 ## Of curves and of maps
 
@@ -68,7 +76,7 @@ def page() -> str:
         f"| `{one.usage}`{' *' if name in DEFAULT else ''} | {_cell(one.statement)} | {_cell(one.remedy)} |"
         for name, one in kinds.items()
     ]
-    return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows), _ELSEWHERE])
+    return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows), _CRITICAL, _ELSEWHERE])
 
 
 def _identity(rule: CheckRule) -> str:

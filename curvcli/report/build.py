@@ -122,10 +122,10 @@ def _extras(analysis: Analysis, groups: Groups) -> dict[str, Callable[[int], Any
     found: dict[str, Callable[[int], Any]] = {}
     if columns.keys() >= {"H_vec", "A_vec"}:
         bent = constant_mean_curvature(surface, groups, columns)
-        exponents = {"H": -1, "residual_max": 1, "H_vec_max": 1}
+        exponents = {"H": -1, "residual_max": 1, "residual_density_max": -1, "H_vec_max": 1, "H_vec_density_max": -1}
         shown = {key: _plain(surface.in_file_unit(values, exponents[key]) * factor) for key, values in bent.items()}
-        found["cmc"] = lambda group: Cmc(shown["H"][group], shown["residual_max"][group])
-        found["minimal"] = lambda group: Minimal(shown["H_vec_max"][group])
+        found["cmc"] = lambda group: Cmc(**{key: shown[key][group] for key in Cmc.__struct_fields__})
+        found["minimal"] = lambda group: Minimal(**{key: shown[key][group] for key in Minimal.__struct_fields__})
     if columns.keys() >= {"H_vec", "star_vector"}:
         angles = {key: _plain(values) for key, values in competing_normals(surface, groups, columns).items()}
         found["normals"] = lambda group: Normals(angles["angle_max"][group], angles["angle_mean"][group])

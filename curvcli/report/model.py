@@ -66,16 +66,19 @@ class Topology(msgspec.Struct):
 
 
 class Cmc(msgspec.Struct):
-    """Nearness to constant mean curvature."""
+    """Nearness to constant mean curvature: the best constant H in the area measure, the largest |H_p + H A_p| and the
+    largest |H_p + H A_p|/A_p over interior vertices."""
 
     H: float | None
     residual_max: float | None
+    residual_density_max: float | None
 
 
 class Minimal(msgspec.Struct):
-    """Nearness to a minimal surface."""
+    """Nearness to a minimal surface: the largest |H_p| and the largest |H_p|/A_p over vertices off the boundary."""
 
     H_vec_max: float | None
+    H_vec_density_max: float | None
 
 
 class Steiner(msgspec.Struct):

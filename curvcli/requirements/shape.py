@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..analysis import Analysis
-from ..blocks import EPSILON
+from ..blocks import EPSILON, dot
+from ..declare import Flags, VectorColumn
 from ..pipeline import evaluate
 from ..totals import constant_mean_curvature, steiner
 from .base import requirement
@@ -38,28 +39,68 @@ def convex(analysis: Analysis) -> str:
 @requirement(
     "minimal",
     "TOL",
-    remedy="refine or evolve the surface, or allow more; `H_vec` is largest at the worst vertex",
+    remedy="evolve the surface, refine it regularly, or allow more; `h_hks` is largest at the worst vertex",
 )
 def minimal(analysis: Analysis, tolerance: float) -> str:
-    """The largest |H_p| inside is at most TOL, in the file's unit of length."""
-    return _largest(analysis, "H_vec_max", "|H_p|", tolerance)
-
-
-@requirement("cmc", "TOL", remedy="refine or evolve the surface, or allow more")
-def cmc(analysis: Analysis, tolerance: float) -> str:
-    """The largest |H_p + H A_p| inside, H the best constant, is at most TOL, in the file's unit of length."""
-    return _largest(analysis, "residual_max", "|H_p + H A_p|", tolerance)
-
-
-def _largest(analysis: Analysis, key: str, symbol: str, tolerance: float) -> str:
+    """The largest |H_p|/A_p · √area off the boundary is at most TOL, whatever the unit and the size of the mesh."""
     surface = analysis.surface
-    columns = _columns(analysis, "H_vec", "A_vec")
-    found = surface.in_file_unit(constant_mean_curvature(surface, surface.whole, columns)[key], 1)
-    value = float(found[0]) * (0.5 if analysis.conventions.mean == "average" else 1.0)
+    columns = _columns(analysis, "H_vec", "star_area", "star_extent", "face_area")
+    covered = surface.referenced & ~surface.boundary
+    scale = math.sqrt(surface.whole.faces.sum(columns["face_area"])[0])
+    largest, vertex = _largest_density(columns["H_vec"], columns, covered)
+    value = largest * scale * (0.5 if analysis.conventions.mean == "average" else 1.0)
+    return _judged("max |H_p|/A_p · √area", value, vertex, tolerance) or _untested(columns["H_vec"], covered, "H_vec")
+
+
+@requirement(
+    "cmc",
+    "TOL",
+    remedy="evolve the surface, refine it regularly, or allow more; where H is 0, require `minimal` instead",
+)
+def cmc(analysis: Analysis, tolerance: float) -> str:
+    """The largest |H_p + H A_p|/A_p inside is at most TOL · |H|, H the best constant, whatever the unit."""
+    surface = analysis.surface
+    columns = _columns(analysis, "H_vec", "A_vec", "star_area", "star_extent")
+    H = float(constant_mean_curvature(surface, surface.whole, columns)["H"][0])
+    residual = columns["H_vec"] + H * columns["A_vec"]
+    largest, vertex = _largest_density(residual, columns, surface.interior)
+    name = "max |H_p + H A_p|/A_p ÷ |H|"
+    if math.isnan(largest) and surface.without_orientation.any():
+        return f"{name} is undefined: {oriented(analysis)}"
+    value = 0.0 if largest == 0 else largest / abs(H) if H else math.inf
+    others = np.flatnonzero(surface.nonmanifold & ~surface.boundary)
+    return (
+        _judged(name, value, vertex, tolerance)
+        or _untested(residual, surface.interior, "H_vec or A_vec")
+        or (f"{name} is untested at {vertices(others, _NOT_A_FAN, _NOT_FANS)}" if len(others) else "")
+    )
+
+
+_NOT_A_FAN, _NOT_FANS = "whose star is not one fan", "whose stars are not one fan"
+
+
+def _largest_density(vectors: VectorColumn, columns: dict[str, Any], where: Flags) -> tuple[float, int]:
+    """The largest |v|/A_p and its vertex, a v that rounding explains taken as 0; NaN where there is none."""
+    size, area = np.sqrt(dot(vectors, vectors)), columns["star_area"]
+    size[size <= 16 * EPSILON * columns["star_extent"]] = 0.0
+    density = np.divide(size, area, out=np.full_like(size, np.nan), where=where & (area > 0))
+    if np.isnan(density).all():
+        return math.nan, -1
+    vertex = int(np.nanargmax(density))
+    return float(density[vertex]), vertex
+
+
+def _judged(name: str, value: float, vertex: int, tolerance: float) -> str:
     if math.isnan(value):
-        inside = surface.interior & ~np.isnan(columns["H_vec"]).any(axis=0)
-        return f"max {symbol} is undefined: " + (oriented(analysis) if inside.any() else "no vertex inside has a value")
-    return "" if value <= tolerance else f"max {symbol} = {value:.6g} (allowed {tolerance:g})"
+        return f"{name} is undefined: no vertex inside has a value"
+    return "" if value <= tolerance else f"{name} = {value:.6g} (allowed {tolerance:g}), at vertex {vertex}"
+
+
+def _untested(vectors: VectorColumn, where: Flags, what: str) -> str:
+    lost = np.flatnonzero(where & np.isnan(vectors).any(axis=0))
+    return (
+        f"{what} is undefined at " + vertices(lost, "of a degenerate star", "of degenerate stars") if len(lost) else ""
+    )
 
 
 def _columns(analysis: Analysis, *names: str) -> dict[str, Any]:

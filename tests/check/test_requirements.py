@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -74,9 +75,9 @@ CASES: list[tuple[str, Make, Make, str]] = [
         "1 vertex that no face uses (vertex 4)",
     ),
     ("no-duplicate-vertices", tetrahedron, seam, "2 vertices at the position of an earlier one (first: vertex 3)"),
-    ("minimal=1e-12", lambda: of_sample("plane"), meshes.torus, "max |H_p| = "),
-    ("cmc=1e-12", lambda: of_sample("tetrahedron"), meshes.torus, "max |H_p + H A_p| = "),
-    ("minimal=2", meshes.torus, seam, "max |H_p| is undefined: no vertex inside has a value"),
+    ("minimal=0", lambda: of_sample("plane"), meshes.torus, "max |H_p|/A_p · √area = "),
+    ("cmc=1e-12", lambda: of_sample("tetrahedron"), meshes.torus, "max |H_p + H A_p|/A_p ÷ |H| = "),
+    ("minimal=100", meshes.torus, seam, "max |H_p|/A_p · √area is undefined: no vertex inside has a value"),
 ]
 
 
@@ -122,14 +123,18 @@ def test_outward_judges_the_file_whatever_is_turned() -> None:
 
 def test_tolerances_follow_the_convention_and_the_unit() -> None:
     body = meshes.torus()
-    largest = analyze((body.points, body.faces)).report()["minimal"]["H_vec_max"]
-    for bound, status in ((1.01 * largest, "pass"), (0.99 * largest, "fail")):
-        name = f"minimal={bound!r}"
-        assert outcome(judged(body, name), name).status == status
-        half = f"minimal={bound / 2!r}"
-        assert outcome(judged(body, half, mean="average"), half).status == status
-        far = f"minimal={bound * 2.0**200!r}"
-        assert outcome(judged(body.moved(body.points * 2.0**200), far), far).status == status
+    report = analyze((body.points, body.faces)).report()
+    largest = report["minimal"]["H_vec_density_max"] * math.sqrt(report["totals"]["area"])
+    ratio = report["cmc"]["residual_density_max"] / report["cmc"]["H"]
+    for factor, status in ((1.01, "pass"), (0.99, "fail")):
+        name, half, cmc = (f"{kind}={factor * value!r}" for kind, value in (
+            ("minimal", largest), ("minimal", largest / 2), ("cmc", ratio)))  # fmt: skip
+        for scale in (1.0, 1e-9, 1e9, 2.0**200, 2.0**-200):
+            here = body.moved(body.points * scale)
+            assert outcome(judged(here, name), name).status == status
+            assert outcome(judged(here, half, mean="average"), half).status == status
+            assert outcome(judged(here, cmc), cmc).status == status
+            assert outcome(judged(here, cmc, mean="average"), cmc).status == status
 
 
 def test_polygons_are_named_as_the_file_counts_them(tmp_path: Path) -> None:
