@@ -18,9 +18,6 @@ from .pipeline import load_passes
 
 Cells = NDArray[Any]
 
-# Lines rather than arrows: ±d is the same direction.
-_LINES = ("dir_1", "dir_2")
-
 
 @dataclass(frozen=True)
 class MovedColumn:
@@ -118,7 +115,6 @@ class _Scales:
             self._stems.setdefault(stem(name), []).append(name)
         areas = [side["A"] for side in self._tables if "A" in side and _numeric(side["A"])]
         self.edge = max((_of(np.nanmean, np.sqrt(area)) for area in areas), default=0.0)
-        self.exponent = {c: q.length_exponent for q in passes.quantities("vertex") for c in q.columns}
 
     def typical(self, name: str) -> float:
         """The median size of the column and the other axes of its vector; the extent for positions."""
@@ -133,12 +129,13 @@ class _Scales:
         """What rounding can make of one cell."""
         if stem(name) == "xyz":
             return 4 * EPSILON * max(_of(np.nanmax, np.abs(side[name])) for side in self._tables)
-        return noise_of(name, self.exponent.get(name, 0), self.edge) if name in self.exponent else 0.0
+        quantity = passes.column(name)
+        return noise_of(name, quantity.length_exponent, self.edge) if quantity else 0.0
 
     def along(self, name: str, one: Cells, other: Cells) -> tuple[Cells, Cells]:
-        """Both columns, directions of b turned to point along those of a."""
-        axes = self._stems[stem(name)]
-        if stem(name) not in _LINES or not all(axis in side for axis in axes for side in self._tables):
+        """Both columns, lines of b turned to point along those of a: ±d is the same line."""
+        quantity, axes = passes.column(name), self._stems[stem(name)]
+        if not (quantity and quantity.line) or not all(axis in side for axis in axes for side in self._tables):
             return one, other
         a, b = self._tables
         with np.errstate(invalid="ignore"):

@@ -7,15 +7,17 @@ it is; tables, schema, documentation, invariance tests and benchmarks follow fro
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .errors import UsageError
+from .nearest import suggestion
+from .order import TOTALS, ordered
 from .settings import PARAMETERS
 
 Column = NDArray[np.float64]
@@ -33,6 +35,8 @@ SURFACE, MASKS, CELL_AREA = "surface", ("interior", "boundary", "referenced", "w
 # The others are answered by `Settings`; what depends on the scale is named `NAME@SCALE` where there are several.
 NO_QUANTITIES = (SURFACE, *MASKS, *PARAMETERS)
 AT_SCALE = "@"
+# The names of scales at the end of a column: `3rings`, `2.5e`, `r0.1`.
+_SCALE = re.compile(r"r\d[\d.e+-]*|\d[\d.e+-]*(rings|e)")
 CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
 
 
@@ -47,6 +51,8 @@ class Quantity:
     total: the key of its sum in the report. signed: whether 0 is the middle of its range. labels: what codes stand for.
     column: its name in the table of its element where that is not its own, which is unique among all elements.
     partner: the quantity it changes places with under reversal, as the larger curvature does with the smaller.
+    line: a direction without a sign, ±d are the same. rooted: a root of a difference, of which rounding takes half of
+    the digits; None is rooted where something it needs is.
     """
 
     name: str
@@ -68,6 +74,8 @@ class Quantity:
     description: str = ""
     column: str = ""
     partner: str = ""
+    line: bool = False
+    rooted: bool | None = None
 
     @property
     def stem(self) -> str:
@@ -140,12 +148,15 @@ class Registry(Mapping[str, Pass]):
     def __len__(self) -> int:
         return len(self._passes)
 
-    def add(self, new: Pass) -> None:
-        """Register a pass; its needs must be known and its columns new, so that a misspelling fails at import."""
+    def add(self, new: Pass) -> Pass:
+        """Register a pass and return it as registered.
+
+        Its needs must be known and its columns new, so that a misspelling fails at import.
+        """
         for need in new.needs:
             if need not in self._providers and need not in (*NO_QUANTITIES, CELL_AREA):
-                near = get_close_matches(need, [*self._providers, *NO_QUANTITIES, CELL_AREA], 3)
-                raise UsageError(f"pass {new.name} needs {need}, which no pass provides; nearest: {', '.join(near)}")
+                way_out = suggestion(need, [*self._providers, *NO_QUANTITIES, CELL_AREA])
+                raise UsageError(f"pass {new.name} needs {need}, which no pass provides{way_out}")
         apart = {need for need in new.needs if need == SURFACE or need in PARAMETERS}
         apart |= {need for need in new.needs if need in self._providers and self.quantity(need).on != "vertex"}
         if new.pointwise and apart:
@@ -159,8 +170,16 @@ class Registry(Mapping[str, Pass]):
                 raise UsageError(f"pass {new.name} provides {name}, which exists already")
         if new.name in self._passes:
             raise UsageError(f"a pass {new.name} exists already")
+        new = replace(new, provides=tuple(self._settled(quantity, new.needs) for quantity in new.provides))
         self._passes[new.name] = new
         self._providers.update({quantity.name: new for quantity in new.provides})
+        return new
+
+    def _settled(self, quantity: Quantity, needs: tuple[str, ...]) -> Quantity:
+        """A quantity that says whether it is rooted."""
+        if quantity.rooted is not None:
+            return quantity
+        return replace(quantity, rooted=any(self.quantity(need).rooted for need in needs if need in self._providers))
 
     def provider(self, quantity: str) -> Pass:
         """The pass that provides a quantity."""
@@ -186,13 +205,38 @@ class Registry(Mapping[str, Pass]):
         return self.depends_on_scale(plain) and self.quantity(plain).on == "vertex"
 
     def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
-        """Quantities in the order of declaration."""
+        """Quantities in the order of the tables, vertices first; what has no place there follows as it was declared."""
+        elements = get_args(Element) if on is None else (on,)
         return [
             quantity
-            for registered in self._passes.values()
-            for quantity in registered.provides
-            if (quantity.public or not public) and on in (None, quantity.on)
+            for element in elements
+            for quantity in ordered(self._declared(), lambda quantity: quantity.name)
+            if (quantity.public or not public) and quantity.on == element
         ]
+
+    def totals(self) -> list[Quantity]:
+        """Quantities with a total, in the order of the report."""
+        declared = (quantity for quantity in self._declared() if quantity.total)
+        return ordered(declared, lambda quantity: quantity.total or "", TOTALS)
+
+    def column(self, name: str, on: Element = "vertex") -> Quantity | None:
+        """The quantity that a column of a table belongs to, also of one at a scale (`K_fit_2e`); None for another."""
+        found: Quantity | None = None
+        for quantity in self._declared():
+            if quantity.on == on and quantity.public:
+                if name in quantity.columns:
+                    return quantity
+                start, scale = f"{quantity.stem}_", name[:-2] if quantity.vector else name
+                if (
+                    scale.startswith(start)
+                    and _SCALE.fullmatch(scale[len(start) :])
+                    and self.depends_on_scale(quantity.name)
+                ):
+                    found = quantity
+        return found
+
+    def _declared(self) -> Iterator[Quantity]:
+        return (quantity for registered in self._passes.values() for quantity in registered.provides)
 
 
 passes = Registry()
@@ -221,7 +265,6 @@ def curvature_pass(
         quantities = provides or (Quantity(name, **declaration),)
         quantities = tuple(q if q.description else replace(q, description=text) for q in quantities)
         new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters), pointwise)
-        passes.add(new)
-        return new
+        return passes.add(new)
 
     return register

@@ -23,8 +23,6 @@ from .declare import Quantity, passes
 from .pipeline import load_passes
 
 STATISTICS = ("min", "max", "mean", "area_mean", "std", "p02", "median", "p98")
-# Differences of nearly equal numbers under a root lose half of the digits: κ₁ − κ₂ at umbilics.
-ROOTS = frozenset({"kappa_1", "kappa_2", "shape_index", "curvedness"})
 # Of a loop: its measures by length exponent; its other entries are compared as they are.
 _LOOP = {"length": 1, "total_curvature": 0, "sum_kappa_g": 0, "vector_area": 2, "force": 1, "torque": 2}
 _LOOP |= {"holonomy": 0, "writhe": 0, "twist": 0}
@@ -60,7 +58,7 @@ class Difference:
 
 
 class Leaf(NamedTuple):
-    """A value of a report; typical is None where only equality counts."""
+    """A value of a report; typical is None where only equality counts, infinite where any number is the same."""
 
     value: Any
     typical: float | None = None
@@ -126,7 +124,7 @@ def _compared(key: Key, a: Leaf, b: Leaf, tolerance: Tolerance) -> Difference | 
     one, other = _numbers(a.value), _numbers(b.value)
     if a.typical is None or b.typical is None or one is None or other is None or len(one) != len(other):
         return Difference(dotted(key), "changed", a.value, b.value)
-    size = max(math.hypot(*one), math.hypot(*other), a.typical, b.typical)
+    size = max(math.hypot(*one), math.hypot(*other), a.typical, b.typical) if tolerance.rtol > 0 else 0.0
     allowed = tolerance.allowed(size, max(a.noise, b.noise))
     moved = math.dist(one, other)
     return None if moved <= allowed else Difference(dotted(key), "moved", a.value, b.value, moved, allowed)
@@ -204,17 +202,19 @@ def _piece(piece: Mapping[str, Any], prefix: Key, flatness: float) -> Iterator[t
 
 def _columns(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
     """The statistics of every column; the axes of a vector share one size."""
+    load_passes()
     edge = edge_length(report)
     sizes: dict[str, float] = {}
     for name, column in report["columns"].items():
         size = max(abs(column["p02"] or 0.0), abs(column["p98"] or 0.0))
         sizes[stem(name)] = max(size, sizes.get(stem(name), 0.0))
     for name, column in report["columns"].items():
-        noise = noise_of(name, column["length_exponent"], edge)
+        noise, quantity = noise_of(name, column["length_exponent"], edge), passes.column(name)
         for statistic in STATISTICS:
             spread = (column["std"] or 0.0) if statistic in ("mean", "area_mean") else 0.0
-            leaf = Leaf(column[statistic], max(sizes[stem(name)], spread), noise)
-            yield ("columns", name, statistic), leaf
+            # The signs of lines are arbitrary, and with them every statistic of their components.
+            typical = math.inf if quantity and quantity.line else max(sizes[stem(name)], spread)
+            yield ("columns", name, statistic), Leaf(column[statistic], typical, noise)
         yield ("columns", name, "nulls"), Leaf(column["nulls"])
 
 
@@ -227,7 +227,7 @@ def _flattest(report: Mapping[str, Any]) -> float:
 
 def _by_total() -> dict[str, Quantity]:
     load_passes()
-    return {quantity.total: quantity for quantity in passes.quantities(public=False) if quantity.total}
+    return {quantity.total or "": quantity for quantity in passes.totals()}
 
 
 def stem(column: str) -> str:
@@ -239,8 +239,9 @@ def stem(column: str) -> str:
 
 def noise_of(column: str, exponent: int, edge: float) -> float:
     """What rounding can make of one value of a column on a mesh of this mean edge length."""
-    relative = 256 * EPSILON
-    return (math.sqrt(relative) if column in ROOTS else relative) * power(edge, exponent)
+    quantity, relative = passes.column(column), 256 * EPSILON
+    # Differences of nearly equal numbers under a root lose half of the digits: κ₁ − κ₂ at umbilics.
+    return (math.sqrt(relative) if quantity and quantity.rooted else relative) * power(edge, exponent)
 
 
 def edge_length(piece: Mapping[str, Any]) -> float:

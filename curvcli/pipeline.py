@@ -83,23 +83,7 @@ def resolve(names: Iterable[str]) -> list[str]:
             near = nearest(name, [*named, *public])
             way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
             raise UsageError(f"unknown pass {name!r}; {way_out}")
-    return in_order(name for name in public if name in wanted)
-
-
-# The order of the table; columns of plug-ins follow in the order of their registration.
-ORDER = (
-    *("status", "degree", "K", "kappa_g", "K_comb", "K_plus", "K_minus", "K_abs", "A", "A_mixed", "A_voronoi", "A_vec"),
-    *("H_vec", "area_gradient", "h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2"),
-    "kappa_max",
-    *("dir_1", "dir_2", "shape_index", "curvedness", "willmore", "willmore_hks", "willmore_perp", "willmore_normal"),
-    "willmore_conformal",
-)
-
-
-def in_order(names: Iterable[str]) -> list[str]:
-    """Names in the order of the table."""
-    rank = {name: place for place, name in enumerate(ORDER)}
-    return sorted(names, key=lambda name: rank.get(name, len(rank)))
+    return [name for name in public if name in wanted]
 
 
 def needs(one: Pass, area: str) -> list[str]:

@@ -120,7 +120,7 @@ def _piece_columns(pieces: list[Piece]) -> Table:
         if isinstance(first, str):
             table[section] = _words(each)
         elif section == "totals":
-            vectors = {quantity.total for quantity in passes.quantities(public=False) if quantity.vector}
+            vectors = {quantity.total for quantity in passes.totals() if quantity.vector}
             for key in first:
                 table |= _numbers(key, [totals[key] for totals in each], "xyz" if key in vectors else ())
         elif isinstance(first, msgspec.Struct):

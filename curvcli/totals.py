@@ -70,12 +70,11 @@ def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> I
 
 
 def summed(names: Collection[str]) -> list[Quantity]:
-    """Those of the named quantities that have a total, in the order of declaration; of several scales each its own."""
+    """Those of the named quantities that have a total, in the order of the report; of several scales each its own."""
     at: dict[str, list[str]] = {}
     for name in names:
         at.setdefault(name.partition(AT_SCALE)[0], []).append(name)
-    declared = [quantity for quantity in passes.quantities(public=False) if quantity.total]
-    return [passes.quantity(name) for quantity in declared for name in at.get(quantity.name, ())]
+    return [passes.quantity(name) for quantity in passes.totals() for name in at.get(quantity.name, ())]
 
 
 def _sum(segments: Segments, quantity: Quantity, column: Any) -> Floats:

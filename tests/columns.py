@@ -20,9 +20,6 @@ _ = curvcli.passes  # importing registers them
 # What follows from the precision of the coordinates changes with it, as they are moved and scaled.
 PUBLIC: dict[str, Quantity] = {q.name: q for q in passes.quantities() if "noise" not in passes.provider(q.name).needs}
 
-# A square root of a difference that vanishes at umbilics loses half the digits there, and quotients of its values too.
-HALF_THE_DIGITS = {"kappa_1", "kappa_2", "curvedness", "shape_index"}
-
 
 def everything(surface: Surface | tuple[Array, Array], mean: str = "sum") -> dict[str, Array]:
     """Every public quantity of a surface as the user sees it, words as numbers."""
@@ -53,9 +50,10 @@ def agree(quantity: Quantity, found: Array, wanted: Array, digits: float = 1e-11
         largest = max(largest, length**quantity.length_exponent)
     if quantity.mean_degree == 2 and passes.depends_on_scale(quantity.name):
         digits *= 2  # the square of an estimate has twice its relative error
-    tolerance = np.sqrt(digits) if quantity.name in HALF_THE_DIGITS else digits
+    # A root of a difference that vanishes at umbilics loses half the digits there, and quotients of its values too.
+    tolerance = np.sqrt(digits) if quantity.rooted else digits
     gap = np.abs(found - wanted)[known]
-    if quantity.kind == "direction" and quantity.on == "vertex":
+    if quantity.line:
         gap = np.minimum(np.abs(found - wanted), np.abs(found + wanted))[known]
     assert gap.max() <= tolerance * max(largest, np.finfo(float).tiny), (quantity.name, gap.max(), largest)
 

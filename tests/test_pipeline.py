@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.declare import NO_QUANTITIES, passes
+from curvcli.declare import CELL_AREA, NO_QUANTITIES, Element, Registry, passes
 from curvcli.errors import UsageError
-from curvcli.pipeline import CORE, ORDER, arguments, evaluate, needs, resolve, schedule
+from curvcli.order import COLUMNS, EDGES, FACES, TOTALS, VERTICES
+from curvcli.pipeline import CORE, arguments, evaluate, needs, resolve, schedule
 from tests import meshes
 from tests.columns import PUBLIC
 
@@ -22,8 +23,36 @@ def test_presets() -> None:
     assert set(resolve(["all"])) == {quantity.name for quantity in passes.quantities()}
     paper = resolve(["paper"])
     assert set(CORE) - {"status", "degree"} <= set(paper) <= set(PUBLIC)
-    vertex = [name for name in resolve(["all"]) if passes.quantity(name).on == "vertex"]
-    assert vertex == [name for name in ORDER if name in vertex] + [name for name in vertex if name not in ORDER]
+    assert resolve(["all"]) == list(COLUMNS)
+
+
+@pytest.mark.parametrize(("element", "order"), [("vertex", VERTICES), ("edge", EDGES), ("face", FACES)])
+def test_every_column_of_ours_has_its_place(element: Element, order: tuple[str, ...]) -> None:
+    """Tables do not follow the order of imports: `curvcli/order.py` says where a column stands."""
+    assert [quantity.name for quantity in passes.quantities(element)] == list(order)
+
+
+def test_every_total_of_ours_has_its_place() -> None:
+    assert [q.total for q in passes.totals()] == [key for key in TOTALS if key != "volume"]
+    given = meshes.zoo("two_bodies").surface()
+    assert [*curvcli.analyze(given, "all").totals] == list(TOTALS)
+
+
+def test_the_order_of_registration_is_none_of_the_tables() -> None:
+    """The same passes registered the other way round give the same tables and totals."""
+    other, todo = Registry(), [passes[name] for name in reversed(list(passes))]
+    while todo:
+        later = []
+        for one in todo:
+            known = {quantity.name for quantity in other.quantities(public=False)} | {*NO_QUANTITIES, CELL_AREA}
+            if known.issuperset(one.needs):
+                other.add(one)
+            else:
+                later.append(one)
+        todo = later
+    assert list(other) != list(passes)
+    assert other.quantities() == passes.quantities()
+    assert other.totals() == passes.totals()
 
 
 def test_names_are_put_in_the_order_of_the_table() -> None:

@@ -131,7 +131,7 @@ def corrected_principal_curvatures(
     return 0.5 * h_corrected + half, 0.5 * h_corrected - half
 
 
-_LINE: dict[str, Any] = {"kind": "direction", "vector": True, **_SHARED}
+_LINE: dict[str, Any] = {"kind": "direction", "vector": True, "line": True, **_SHARED}
 
 
 @curvature_pass(

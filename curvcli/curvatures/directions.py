@@ -15,6 +15,7 @@ from .tensor import ENTRIES, line, tangential
 _SHARED = {
     "kind": "direction",
     "vector": True,
+    "line": True,
     "boundary": "null; also where the tangential eigenvalues are equal to rounding or the patch has no orientation",
     "source": "Sullivan, Discrete surfaces; "
     "Cohen-Steiner and Morvan, Restricted Delaunay triangulations and normal cycle",

@@ -32,6 +32,7 @@ _KAPPA: dict[str, Any] = {
 _LINE: dict[str, Any] = {
     "kind": "direction",
     "vector": True,
+    "line": True,
     "preserves": "dir_1_fit ⊥ dir_2_fit, both tangential to the fitted surface",
     **_SHARED,
 }

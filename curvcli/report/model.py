@@ -187,8 +187,7 @@ def schema() -> bytes:
     }
     for piece in (found["$defs"]["Report"], found["$defs"]["Piece"]):
         piece["properties"]["totals"]["properties"] = {
-            quantity.total: {"description": unmarked(f"Σ {quantity.name}: {quantity.description}")}
-            for quantity in passes.quantities(public=False)
-            if quantity.total
+            quantity.total or "": {"description": unmarked(f"Σ {quantity.name}: {quantity.description}")}
+            for quantity in passes.totals()
         }
     return encode(found)

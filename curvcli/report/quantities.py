@@ -8,10 +8,10 @@ from typing import Any, TypedDict
 from rich.markup import escape
 from rich.table import Table
 
-from ..declare import CELL_AREA, NO_QUANTITIES, Element, Quantity, passes
+from ..declare import CELL_AREA, NO_QUANTITIES, Quantity, passes
 from ..errors import UsageError
 from ..nearest import nearest
-from ..pipeline import in_order, load_passes, resolve
+from ..pipeline import load_passes, resolve
 from .advice import plain
 from .console import report_console
 from .fitting import fitting, plain_table
@@ -46,12 +46,7 @@ class Facts(TypedDict):
 def public() -> list[Quantity]:
     """All public quantities in the order of the tables, vertices first."""
     load_passes()
-    elements: tuple[Element, ...] = ("vertex", "edge", "face")
-    return [
-        passes.quantity(name)
-        for element in elements
-        for name in in_order(quantity.name for quantity in passes.quantities(element))
-    ]
+    return passes.quantities()
 
 
 def find(name: str) -> Quantity:

@@ -113,7 +113,7 @@ def _totals() -> dict[str, Any]:
     """The quantity that each total sums."""
     from ...declare import passes
 
-    return {quantity.total: quantity for quantity in passes.quantities(public=False) if quantity.total}
+    return {quantity.total or "": quantity for quantity in passes.totals()}
 
 
 def _policy(style: str, scripts: list[str]) -> str:

@@ -1,0 +1,32 @@
+"""The order of columns and totals in every table, report and page, whatever the order of imports."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TypeVar
+
+_Item = TypeVar("_Item")
+
+VERTICES = (
+    *("status", "degree", "K", "kappa_g", "K_comb", "K_plus", "K_minus", "K_abs", "A", "A_mixed", "A_voronoi", "A_vec"),
+    *("H_vec", "area_gradient", "h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2"),
+    *("kappa_max", "dir_1", "dir_2", "shape_index", "curvedness", "willmore", "willmore_hks", "willmore_perp"),
+    *("willmore_normal", "willmore_conformal", "K_ring", "h_ring", "kappa_1_ring", "kappa_2_ring", "K_corrected", "h_corrected"),
+    *("kappa_1_corrected", "kappa_2_corrected", "dir_1_corrected", "dir_2_corrected", "K_fit", "h_fit", "kappa_1_fit"),
+    *("kappa_2_fit", "dir_1_fit", "dir_2_fit", "condition_fit", "K_sigma", "h_sigma"),
+)
+EDGES = ("edge_length", "theta", "edge_H_vec", "H_sin", "H_theta", "H_tan", "beta")
+FACES = ("area_of_face", "normal", "dirichlet")
+COLUMNS = (*VERTICES, *EDGES, *FACES)
+
+# By the keys of the report; `volume` has no column of its own.
+TOTALS = (
+    *("area", "volume", "K", "kappa_g", "A_vec", "H_vec", "H_sin", "H_theta", "H_tan", "K_plus", "K_minus", "K_abs"),
+    *("willmore", "willmore_hks", "willmore_perp", "willmore_normal", "willmore_conformal", "dirichlet"),
+)
+
+
+def ordered(items: Iterable[_Item], name: Callable[[_Item], str], order: tuple[str, ...] = COLUMNS) -> list[_Item]:
+    """The items by the place of their names in an order; those without a place follow as they come."""
+    place = {listed: number for number, listed in enumerate(order)}
+    return sorted(items, key=lambda item: place.get(name(item), len(place)))
