@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from . import findings
 from .checks import Check, rules
 from .checks.listing import known_checks, summarised
-from .columns import Columns
+from .columns import Columns, named
 from .conventions import Conventions
-from .declare import AT_SCALE, CELL_AREAS, passes
+from .declare import AT_SCALE, CELL_AREAS, Element, Quantity, passes
 from .errors import Notice, UsageError
 from .finite import or_none
 from .groups import Groups
@@ -73,6 +73,8 @@ class Analysis:
         prepare(surface, wanted, conventions.area)
         self.columns = evaluate(surface, wanted, area=conventions.area, settings=settings)
         self._later: dict[str, Array] = {}
+        self._shown: dict[str, Array] = {}
+        self._named: dict[Element, dict[str, tuple[Quantity, int | None]]] = {}
         self.cut: Analysis | None = None
         if regions is not None:
             cut, self.cut_groups = cut_apart(surface, regions)
@@ -107,6 +109,12 @@ class Analysis:
         """One column as a user sees it: (n,), (n, 3), or strings for labels."""
         return presented(passes.quantity(name), self._column(name), self.surface, self.conventions.mean)
 
+    def shown(self, name: str) -> Array:
+        """The same, kept for whoever asks again."""
+        if name not in self._shown:
+            self._shown[name] = self.column(name)
+        return self._shown[name]
+
     def _column(self, name: str) -> Array:
         """A column as computed; those of a table asked for later are kept apart, so that no report depends on it."""
         if name not in self.columns and name not in self._later:
@@ -115,20 +123,26 @@ class Analysis:
             self._later = evaluate(self.surface, [name], area=area, settings=settings, known=known)
         return self.columns[name] if name in self.columns else self._later[name]
 
-    @cached_property
+    @property
     def vertices(self) -> Columns:
         """Vertex columns by name."""
-        return Columns(self, "vertex")
+        return self._columns_of("vertex")
 
-    @cached_property
+    @property
     def edges(self) -> Columns:
         """Edge columns by name."""
-        return Columns(self, "edge")
+        return self._columns_of("edge")
 
-    @cached_property
+    @property
     def faces(self) -> Columns:
         """Face columns by name."""
-        return Columns(self, "face")
+        return self._columns_of("face")
+
+    def _columns_of(self, element: Element) -> Columns:
+        """Columns refer to their analysis, so that it must not keep them: a circle would hold its memory."""
+        if element not in self._named:
+            self._named[element] = named(self, element)
+        return Columns(self, self._named[element])
 
     # ------------------------------------------------------------------ integrals
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .blocks import by_corner
+from .cache import cached
 from .groups import Groups
 from .loading.weld import position_keys, weld_exact
-from .once import once
 from .slices import slices
 from .surface import Surface
 
@@ -37,12 +37,9 @@ class Census:
     balanced: Mask
 
 
+@cached
 def census(surface: Surface, groups: Groups) -> Census:
     """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
-    return once(groups, "census", lambda: _count(surface, groups))
-
-
-def _count(surface: Surface, groups: Groups) -> Census:
     vertices, faces = groups.vertices.count_true(surface.referenced), groups.faces.members()
     boundary = groups.faces.count_of(surface.boundary_half_edges // 3)
     many = excess = conflicts = np.zeros(groups.count, np.int64)
@@ -127,12 +124,9 @@ def classify(surface: Surface, groups: Groups) -> Classification:
     )
 
 
+@cached
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     """Referenced vertices beyond the first at exactly the same position."""
-    return once(surface, "duplicate_vertices", lambda: _duplicate_vertices(surface))
-
-
-def _duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     if surface.cut_from is not None:  # which has a vertex of its own for every piece that meets there
         there = surface.cut_from
         return np.flatnonzero(np.isin(there.vertex, duplicate_vertices(there.surface)))
@@ -144,12 +138,9 @@ def _duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     return suspects[again]
 
 
+@cached
 def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     """Faces beyond the first with the same three corners in any order."""
-    return once(surface, "duplicate_faces", lambda: _duplicate_faces(surface))
-
-
-def _duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     suspects = np.flatnonzero(_shared_keys(lambda: _corner_keys(surface)))
     if not len(suspects):
         return suspects

@@ -15,29 +15,30 @@ if TYPE_CHECKING:
 Array = NDArray[Any]
 
 
+def named(analysis: Analysis, element: Element) -> dict[str, tuple[Quantity, int | None]]:
+    """The quantity of each column of an element that an analysis has, and which component of it the column is."""
+    found: dict[str, tuple[Quantity, int | None]] = {}
+    offered = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
+    for quantity in map(passes.quantity, offered):
+        if quantity.on == element:
+            found[quantity.stem] = (quantity, None)
+            if quantity.vector:
+                found |= {column: (quantity, k) for k, column in enumerate(quantity.columns)}
+    return found
+
+
 class Columns(Mapping[str, Array]):
     """Columns of one element by name, read-only; a vector is there by its stem as (n, 3) and by its components.
 
     Of vertices, the passes chosen; of edges and faces all there are, computed when they are first asked for.
     """
 
-    def __init__(self, analysis: Analysis, element: Element) -> None:
-        self._analysis = analysis
-        self._quantities: dict[str, tuple[Quantity, int | None]] = {}
-        offered = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
-        for name in offered:
-            quantity = passes.quantity(name)
-            if quantity.on == element:
-                self._quantities[quantity.stem] = (quantity, None)
-                if quantity.vector:
-                    self._quantities.update({column: (quantity, k) for k, column in enumerate(quantity.columns)})
-        self._shown: dict[str, Array] = {}
+    def __init__(self, analysis: Analysis, quantities: Mapping[str, tuple[Quantity, int | None]]) -> None:
+        self._analysis, self._quantities = analysis, quantities
 
     def __getitem__(self, name: str) -> Array:
         quantity, component = self._quantities[name]
-        if quantity.name not in self._shown:
-            self._shown[quantity.name] = self._analysis.column(quantity.name)
-        column = self._shown[quantity.name]
+        column = self._analysis.shown(quantity.name)
         return column if component is None else column[:, component]
 
     def __iter__(self) -> Iterator[str]:

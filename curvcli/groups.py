@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .once import once
+from .cache import cached
 from .topology import Index
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ class Segments:
         return np.where(largest == -np.inf, np.nan, largest)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Groups:
     """A partition of a surface's faces, with the vertices that go with each part.
 
@@ -105,15 +105,17 @@ class Groups:
 
     def edges(self, surface: Surface) -> Segments:
         """The edges of the surface whose parts these are."""
-        return once(self, "edges", lambda: self._edges(surface.edges.a))
-
-    def _edges(self, lower_end: Index) -> Segments:
-        vertex = self.vertices.label
-        return Segments(None if vertex is None else vertex[lower_end], self.count, len(lower_end))
+        return _edges(self, surface)
 
     def of(self, surface: Surface, element: str) -> Segments:
         """The segments of `vertex`, `edge` or `face` values."""
         return self.edges(surface) if element == "edge" else {"vertex": self.vertices, "face": self.faces}[element]
+
+
+@cached
+def _edges(groups: Groups, surface: Surface) -> Segments:
+    lower_end, vertex = surface.edges.a, groups.vertices.label
+    return Segments(None if vertex is None else vertex[lower_end], groups.count, len(lower_end))
 
 
 def whole(surface: Surface, kind: str = "whole", names: tuple[str, ...] = ()) -> Groups:

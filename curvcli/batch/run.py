@@ -18,6 +18,7 @@ from ..errors import InputError, OutputError
 from ..loading.read import read_mesh_file
 from ..loading.recognise import format_of_name
 from ..loading.surfaces import from_file
+from ..memory import ran_out
 from ..output.atomic import Outputs
 from ..output.write import write_into
 from ..printable import shown
@@ -32,22 +33,23 @@ if TYPE_CHECKING:
 _WORST = ("fail", "pass", "not_applicable")
 
 
-def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, BaseException | None]:
-    """Analyse one mesh and write its outputs whole or not at all: its row, and the error that it ended with."""
+def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
+    """Analyse one mesh and write its outputs whole or not at all: its row, and whether memory ran out."""
     start = time.perf_counter()
     _forget_peak()
-    failure: BaseException | None = None
+    spent = False
     try:
         analysis = _analysed(item, settings)
         row = _row(item, analysis)  # first: tables compute more, and a row must not depend on what is saved
         _write(analysis, item, settings)
         row.outputs = _written(item)
     except Exception as error:
-        failure = error
+        # The error itself is not kept: its traceback refers to the analysis.
+        spent = ran_out(error)
         row = explained(item.path, error, limits)
         row.sha256 = _hash(item)
     row.seconds, row.memory = round(time.perf_counter() - start, 4), _peak()
-    return row, failure
+    return row, spent
 
 
 def _analysed(item: Item, settings: Settings) -> Analysis:

@@ -29,7 +29,6 @@ def main() -> None:
     todo: SimpleQueue[Task] = SimpleQueue()
     threading.Thread(target=_listen, args=(tasks, todo), daemon=True).start()
 
-    from ..memory import ran_out
     from ..pipeline import load_passes
     from .run import run
 
@@ -42,9 +41,8 @@ def main() -> None:
     _answer(answers, Ready(__version__))
     while True:
         task = todo.get()
-        row, failure = run(task.item, task.settings, limits)
         # Memory in pieces serves nobody: the next mesh gets a fresh process.
-        spent = failure is not None and ran_out(failure)
+        row, spent = run(task.item, task.settings, limits)
         _answer(answers, Done(row, spent))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..blocks import EPSILON
-from ..curves.loops import boundary_of
+from ..curves.boundary import boundary_loops
 from ..curves.turning import Turning
 from ..groups import Groups
 from ..surface import Surface
@@ -23,7 +23,7 @@ def fenchel(surface: Surface, groups: Groups) -> Outcome:
     least, vertices = np.full(groups.count, np.inf), np.ones(groups.count)
     number = np.full(groups.count, -1)
     if surface.boundary.any():
-        boundary = boundary_of(surface)
+        boundary = boundary_loops(surface)
         turning = Turning(boundary.curves.distinct()[0])
         curves = turning.curves
         # Of the curves of each group the one that turns least; curves that are a single point do not turn at all.

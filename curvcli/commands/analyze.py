@@ -137,9 +137,9 @@ class Run:
         with Outputs(wanted, self.force) as everything:
             for mesh, paths, tables in zip(self.meshes, self.paths, self.tables, strict=True):
                 try:
-                    analysis = self.one(mesh, paths, tables, everything)
-                    reports.append(self.tell(analysis))
-                    codes.append(FAILED_CHECK if self.strict and not analysis.passed else OK)
+                    report, code = self.done(mesh, paths, tables, everything)
+                    reports.append(report)
+                    codes.append(code)
                 except CurvcliError as error:
                     if len(self.meshes) == 1 or stops_all(error):
                         raise
@@ -157,6 +157,11 @@ class Run:
 
             sys.stdout.buffer.write(encode(reports[0] if len(self.meshes) == 1 else reports))
         return worst(codes)
+
+    def done(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> tuple[Any, int]:
+        """The report of one mesh, if it is wanted later, and the exit code; nothing keeps the analysis."""
+        analysis = self.one(mesh, paths, tables, outputs)
+        return self.tell(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
 
     def one(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Analysis:
         """Load, compute, write."""

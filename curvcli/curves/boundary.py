@@ -9,27 +9,36 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
+from ..cache import cached
 from ..surface import Surface
 from ..topology import ends_of, label_graph, neighbouring_corners, next_corner
 from .polygon import Curves, Mask, Rows
 
 
 @dataclass(frozen=True)
-class Boundary:
-    """The boundary of a surface as curves.
+class Walk:
+    """The way along the boundary of a surface, which it does not refer to.
 
-    surface: it. half_edge: (n,) the boundary half-edge that leaves each vertex of a curve, -1 at the end of an open
+    half_edge: (n,) the boundary half-edge that leaves each vertex of a curve, -1 at the end of an open
     one. forward: (n,) whether the curve runs along it as the file winds its face. vertex: (n,) vertex of the surface.
-    start: (m + 1,), closed: (m,). fan: (n,) the fan of faces at each vertex of a curve (`Fans`).
+    start: (m + 1,) first vertex of each curve. closed: (m,).
     """
 
-    surface: Surface
     fans: Fans
     half_edge: Rows
     forward: Mask
     vertex: Rows
     start: Rows
     closed: Mask
+
+
+class Boundary:
+    """The boundary of a surface as curves: `surface`, and what `Walk` says."""
+
+    def __init__(self, surface: Surface, walk: Walk) -> None:
+        self.surface, self.fans = surface, walk.fans
+        self.half_edge, self.forward, self.vertex = walk.half_edge, walk.forward, walk.vertex
+        self.start, self.closed = walk.start, walk.closed
 
     @cached_property
     def curves(self) -> Curves:
@@ -62,7 +71,7 @@ class Fans:
     """
 
     def __init__(self, surface: Surface) -> None:
-        self.surface = surface
+        self.faces, self.n_vertices = surface.faces, surface.n_vertices
         self.irregular = surface.nonmanifold & surface.boundary
         self.count = surface.n_vertices
         if not self.irregular.any():
@@ -79,10 +88,10 @@ class Fans:
 
     def of_corners(self, corner: Rows) -> Rows:
         """The fan that each corner (3 f + k) belongs to."""
-        vertex = self.surface.faces.ravel()[corner].astype(np.int64)
+        vertex = self.faces.ravel()[corner].astype(np.int64)
         split = self.irregular[vertex]
         if split.any():
-            vertex[split] = self.surface.n_vertices + self._label[np.searchsorted(self._corners, corner[split])]
+            vertex[split] = self.n_vertices + self._label[np.searchsorted(self._corners, corner[split])]
         return vertex
 
 
@@ -94,6 +103,12 @@ def boundary_loops(surface: Surface) -> Boundary:
     boundary, so that curves pass through such vertices and stay closed; they end only at vertices where their fan runs
     into an edge with more than two faces, and are open then. Linear in the boundary.
     """
+    return Boundary(surface, walk_boundary(surface))
+
+
+@cached
+def walk_boundary(surface: Surface) -> Walk:
+    """The order of the half-edges along the boundary curves, as `boundary_loops` says."""
     half_edge = surface.boundary_half_edges.astype(np.int64)
     fans = Fans(surface)
     mate, forward = _mates(surface, fans, half_edge)
@@ -109,7 +124,7 @@ def boundary_loops(surface: Surface) -> Boundary:
     vertex = np.insert(tail, last, head[last - 1])
     along = np.insert(along, last, along[last - 1])
     start = start + np.concatenate([[0], np.cumsum(~closed)])
-    return Boundary(surface, fans, leaving, along, vertex, start, closed)
+    return Walk(fans, leaving, along, vertex, start, closed)
 
 
 def _ends(surface: Surface, half_edge: Rows, forward: Mask) -> tuple[Rows, Rows]:

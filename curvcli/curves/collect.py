@@ -12,8 +12,7 @@ from ..loading.model import MeshFile
 from ..loading.surfaces import from_file
 from ..plurals import agree
 from ..surface import Surface
-from .boundary import Boundary
-from .loops import boundary_of
+from .boundary import Boundary, boundary_loops
 from .polygon import Curves, Mask, Rows
 
 
@@ -48,7 +47,7 @@ def curves_of_file(file: MeshFile) -> CurveSet:
     if len(file.corners):
         surface = from_file(file)
         notices = list(surface.notices)
-        boundary = boundary_of(surface)
+        boundary = boundary_loops(surface)
     vertex, start, closed = _polylines(file)
     if boundary is not None:
         vertex = np.concatenate([boundary.vertex, vertex])
@@ -67,7 +66,7 @@ def curves_of_file(file: MeshFile) -> CurveSet:
 
 def curves_of_surface(surface: Surface) -> CurveSet:
     """The boundary curves of a surface."""
-    boundary = boundary_of(surface)
+    boundary = boundary_loops(surface)
     return CurveSet(boundary.curves, boundary.vertex, boundary, surface.file, list(surface.notices))
 
 

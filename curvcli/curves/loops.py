@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from ..blocks import cross
-from ..once import once
 from ..surface import Surface
 from .boundary import Boundary, boundary_loops
 from .darboux import Darboux
@@ -18,11 +17,6 @@ from .writhe import UNSURE, writhe
 
 LOOP_WRITHE_EDGES = 2_000
 """Size of the double sums that a table of loops does unasked: a fraction of a second."""
-
-
-def boundary_of(surface: Surface) -> Boundary:
-    """The boundary curves of a surface, found once."""
-    return once(surface, "boundary", lambda: boundary_loops(surface))
 
 
 def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) -> dict[str, Any]:
@@ -39,7 +33,7 @@ def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) 
     at its lowest edge; the rest does not depend on it. Order and directions: see `boundary_loops`.
     Source: Sullivan, Curves; Discrete surfaces.
     """
-    boundary = boundary_of(surface)
+    boundary = boundary_loops(surface)
     given = boundary.curves
     distinct, kept = given.distinct()
     turning, darboux = Turning(distinct), Darboux(boundary)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import math
 import re
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Literal
 
@@ -122,6 +123,16 @@ def require_pictures() -> None:
 def require_vtk() -> None:
     """MissingExtraError where the library that writes VTK files is not installed."""
     _require(".vtp and .vtu need", "vtkmodules")
+
+
+def import_apart(*libraries: str) -> None:
+    """Import libraries on a stack of their own.
+
+    Errors: what the imports raise.
+    """
+    with ThreadPoolExecutor(1) as other:
+        for name in libraries:
+            other.submit(importlib.import_module, name).result()
 
 
 def _require(what: str, *libraries: str) -> None:

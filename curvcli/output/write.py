@@ -17,7 +17,7 @@ from ..memory import require_polars
 from ..tables import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import Format, format_of
-from .look import Look, check_look, parse_view, require_pictures, require_vtk
+from .look import Look, check_look, import_apart, parse_view, require_pictures, require_vtk
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -218,6 +218,8 @@ def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance
     from .legend import sentence
 
     require_pictures()
+    # What such imports leave behind refers to the frames below it, and those here to the analysis.
+    import_apart("matplotlib.figure", *(() if suffix == ".hist.png" else ("pyvista.plotting",)))
     shown = [colored(analysis, name, appearance) for name in _panels(appearance, analysis.chosen, suffix)]
     if suffix == ".hist.png":
         from .histogram import write_histograms

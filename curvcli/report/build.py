@@ -11,11 +11,11 @@ import numpy as np
 from msgspec.structs import replace
 
 from .._version import __version__
+from ..cache import cached
 from ..census import census, classify, duplicate_faces, duplicate_vertices
 from ..declare import passes
 from ..finite import or_none
 from ..groups import Groups
-from ..once import once
 from ..surface import Surface
 from ..totals import competing_normals, constant_mean_curvature, steiner
 from .configuration import configured
@@ -48,7 +48,7 @@ def build(analysis: Analysis) -> dict[str, Any]:
 def model(analysis: Analysis) -> Report:
     """The report of an analysis."""
     surface = analysis.surface
-    whole = once(analysis, "whole", lambda: pieces(analysis, surface.whole)[0])
+    whole = _whole(analysis)
     conventions = analysis.conventions
     return Report(
         schema_version=1,
@@ -61,10 +61,10 @@ def model(analysis: Analysis) -> Report:
         cmc=whole.cmc,
         minimal=whole.minimal,
         normals=whole.normals,
-        components=once(analysis, "components", lambda: _components(analysis, whole)),
-        loops=once(analysis, "loops", lambda: loops(analysis)),
-        regions=once(analysis, "regions", lambda: _regions(analysis)),
-        columns=once(analysis, "columns", lambda: _columns(analysis)),
+        components=_components(analysis),
+        loops=loops(analysis),
+        regions=_regions(analysis),
+        columns=_columns(analysis),
         checks=[CheckRow(**vars(check)) for check in analysis.checks],
         warnings=remarks(analysis.notices),
         timings=analysis.timings,
@@ -88,17 +88,26 @@ def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
     ]
 
 
-def _components(analysis: Analysis, whole: Piece) -> list[Piece]:
+@cached
+def _whole(analysis: Analysis) -> Piece:
+    return pieces(analysis, analysis.surface.whole)[0]
+
+
+@cached
+def _components(analysis: Analysis) -> list[Piece]:
     """The components of a surface; a single one from the surface itself, but for the vertices that no face uses."""
     if analysis.surface.components.count == 1:
+        whole = _whole(analysis)
         return [replace(whole, topology=replace(whole.topology, unreferenced_vertices=0))]
     return pieces(analysis, analysis.surface.components)
 
 
+@cached
 def _regions(analysis: Analysis) -> list[Piece]:
     return [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
 
 
+@cached
 def loops(analysis: Analysis) -> list[dict[str, Any]]:
     """One row per boundary loop, vectors as lists."""
     if not len(analysis.surface.boundary_half_edges):
@@ -170,6 +179,7 @@ def merged(surface: Surface) -> int:
     return 0 if welded is None else int(np.count_nonzero(welded >= 0))
 
 
+@cached
 def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
     surface = analysis.surface
     area = analysis.columns["star_area"]

@@ -25,6 +25,8 @@ from .engine import engine
 from .packing import differences, packed, scaled, steps
 
 if TYPE_CHECKING:
+    from jinja2 import Template
+
     from ...analysis import Analysis
     from ..write import Appearance
 
@@ -73,7 +75,8 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
     pieces = {name: getattr(report, name) for name in ("components", "loops", "regions")}
     first = {name: rows[:SHOWN_ROWS] for name, rows in pieces.items()}
     facts = msgspec.to_builtins(msgspec.structs.replace(report, **first))
-    text = templates.get_template("page.html").render(
+    text = _rendered(
+        templates.get_template("page.html"),
         report=facts,
         title={None: "arrays in memory", "-": "stdin"}.get(report.input.path, report.input.path),
         verdict=verdict(report),
@@ -102,6 +105,16 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         policy=_policy(style, scripts),
     )
     return text.encode("utf-8")
+
+
+def _rendered(template: Template, **values: Any) -> str:
+    """The text of a template; its macros refer to the context and that to them, so that the context is emptied."""
+    context = template.new_context(values)
+    try:
+        return "".join(template.root_render_func(context))
+    finally:
+        context.parent.clear()
+        context.vars.clear()
 
 
 def _first(shown: list[Column], colored: tuple[str, ...]) -> str | None:
