@@ -40,7 +40,9 @@ class Census:
 @cached
 def census(surface: Surface, groups: Groups) -> Census:
     """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
-    vertices, faces = groups.vertices.count_true(surface.referenced), groups.faces.members()
+    vertices = groups.vertices.count_true(surface.referenced)
+    # The whole is that of the surface asked about, whatever surface the groups come from.
+    faces = np.array([surface.n_faces]) if groups.faces.label is None else groups.faces.members()
     boundary = groups.faces.count_of(surface.boundary_half_edges // 3)
     many = excess = conflicts = np.zeros(groups.count, np.int64)
     if not surface.coherent:
