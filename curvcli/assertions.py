@@ -7,7 +7,6 @@ import operator
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from .analysis import Analysis
 from .declare import AT_SCALE, Quantity, passes
 from .errors import UsageError
+from .nearest import suggestion
 from .pipeline import at_scales
 from .report.check import number
 from .report.quantities import public
@@ -155,5 +155,5 @@ def _quantity(text: str, column: str, scales: tuple[Scale, ...]) -> Quantity:
 
 def _known(text: str, what: str, name: str, known: Any) -> None:
     if name not in known:
-        near = get_close_matches(name, known, 3, 0.4) or list(known)[:12]
-        raise UsageError(f"assertion {text!r}: unknown {what} {name!r}; nearest: {', '.join(near)}")
+        way_out = suggestion(name, known, "`curvcli passes` lists them")
+        raise UsageError(f"assertion {text!r}: unknown {what} {name!r}{way_out}")

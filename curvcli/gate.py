@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import cast
 
 from . import assertions, requirements
@@ -13,6 +12,7 @@ from .assertions import Assertion
 from .checks import Check, rules
 from .errors import UsageError
 from .exits import FAILED_CHECK, OK
+from .nearest import suggestion
 from .pipeline import load_passes
 from .printable import shown
 from .report.check import (
@@ -73,8 +73,8 @@ def plan(
     known = [*requirements.kinds, *rules]
     allowed = {part.strip() for text in allow for part in text.split(",")}
     for name in sorted(allowed.difference(known)):
-        near = get_close_matches(name, known, 3, 0.4) or known
-        raise UsageError(f"cannot allow {name!r}: no requirement or identity is called so; nearest: {', '.join(near)}")
+        way_out = suggestion(name, known, "`curvcli help checks` lists them")
+        raise UsageError(f"cannot allow {name!r}: no requirement or identity is called so{way_out}")
     wanted = requirements.parse([*requirements.DEFAULT, *require])
     return Plan(
         tuple(name for name in rules if name not in allowed),

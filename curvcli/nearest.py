@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 # Names less alike than this (of `difflib`) are no suggestion.
-_CUTOFF = 0.55
+_CUTOFF = 0.6
 # Lists up to this long are given whole where no name is near.
 _SHORT = 8
 

@@ -13,7 +13,9 @@ VERTICES = (
     *("kappa_max", "dir_1", "dir_2", "shape_index", "curvedness", "willmore", "willmore_hks", "willmore_perp"),
     *("willmore_normal", "willmore_conformal", "K_ring", "h_ring", "kappa_1_ring", "kappa_2_ring", "K_corrected", "h_corrected"),
     *("kappa_1_corrected", "kappa_2_corrected", "dir_1_corrected", "dir_2_corrected", "K_fit", "h_fit", "kappa_1_fit"),
-    *("kappa_2_fit", "dir_1_fit", "dir_2_fit", "condition_fit", "K_sigma", "h_sigma"),
+    *("kappa_2_fit", "dir_1_fit", "dir_2_fit", "condition_fit", "shape_index_ring", "curvedness_ring"),
+    *("shape_index_corrected", "curvedness_corrected", "shape_index_fit", "curvedness_fit"),
+    *("willmore_ring", "willmore_corrected", "willmore_fit", "K_sigma", "h_sigma"),
 )
 EDGES = ("edge_length", "theta", "edge_H_vec", "H_sin", "H_theta", "H_tan", "beta")
 FACES = ("area_of_face", "normal", "dirichlet")
@@ -23,6 +25,7 @@ COLUMNS = (*VERTICES, *EDGES, *FACES)
 TOTALS = (
     *("area", "volume", "K", "kappa_g", "A_vec", "H_vec", "H_sin", "H_theta", "H_tan", "K_plus", "K_minus", "K_abs"),
     *("willmore", "willmore_hks", "willmore_perp", "willmore_normal", "willmore_conformal", "dirichlet"),
+    *("willmore_ring", "willmore_corrected", "willmore_fit"),
 )
 
 

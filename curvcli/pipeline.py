@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from .declare import AT_SCALE, CELL_AREA, CELL_AREAS, MASKS, NO_QUANTITIES, SURFACE, Pass, Quantity, passes
 from .errors import UsageError
-from .nearest import nearest
+from .nearest import suggestion
 from .neighbourhoods import forget
 from .settings import DEFAULTS, Settings
 from .sheets import on_single_fans, sheets
@@ -80,9 +80,8 @@ def resolve(names: Iterable[str]) -> list[str]:
         elif name in public or name in stems:
             wanted.add(stems.get(name, name))
         else:
-            near = nearest(name, [*named, *public])
-            way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
-            raise UsageError(f"unknown pass {name!r}; {way_out}")
+            way_out = suggestion(name, [*named, *public], "`curvcli passes` lists them")
+            raise UsageError(f"unknown pass {name!r}{way_out}")
     return [name for name in public if name in wanted]
 
 

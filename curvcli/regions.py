@@ -22,6 +22,7 @@ from .errors import InputError, LackingError, Notice
 from .groups import Groups, by_label
 from .loading.content import open_regular, read_whole
 from .loading.model import Labels
+from .nearest import suggestion
 from .surface import CutFrom, Surface
 from .topology import Index
 
@@ -76,9 +77,9 @@ def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
         return _from_labels(surface, file.polygon_properties[chosen], f"face property {chosen}")
     if os.path.splitext(chosen)[1].lower() in FILES:
         return _from_labels(surface, read_labels(chosen), chosen)
-    raise LackingError(
-        f"--regions {chosen}: neither a label of this mesh nor a .npy, .csv or .txt file; {_offered(surface)}"
-    )
+    known = [*file.polygon_labels, *file.polygon_properties] if file is not None else []
+    way_out = suggestion(chosen, known) if known else "; it has no labels of its own"
+    raise LackingError(f"--regions {chosen}: neither a label of this mesh nor a .npy, .csv or .txt file{way_out}")
 
 
 def read_labels(path: str) -> NDArray[Any]:
@@ -236,12 +237,6 @@ def _per_face(surface: Surface, labels: NDArray[Any], source: str) -> NDArray[An
         f"{polygons}" if polygons == surface.n_faces else f"{polygons} (polygons) or {surface.n_faces} (triangles)"
     )
     raise InputError(f"{source}: {len(labels)} labels, expected {expected}")
-
-
-def _offered(surface: Surface) -> str:
-    file = surface.file
-    known = [*file.polygon_labels, *file.polygon_properties] if file is not None else []
-    return f"it has {', '.join(known)}" if known else "it has no labels of its own"
 
 
 def _is_number(text: str) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import count
 
 from ..errors import NoMatchError, UsageError
+from ..nearest import suggestion
 from ..output.formats import FORMATS, format_of
 from ..output.places import folded
 from ..printable import shown
@@ -75,8 +76,8 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
     for one in (part.strip().lower().lstrip(".") for option in options for part in option.split(",")):
         kind, suffix = _split(one)
         if kind and (kind not in TABLES or kind == "vertices"):
-            kinds = ", ".join(kind for kind in TABLES if kind != "vertices")
-            raise UsageError(f"--save {shown(one)}: expected KIND.SUFFIX with KIND one of {kinds}")
+            way_out = suggestion(kind, (kind for kind in TABLES if kind != "vertices"))
+            raise UsageError(f"--save {shown(one)}: there is no table {shown(kind)!r}{way_out}; expected KIND.SUFFIX")
         try:
             format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "page", "picture"])
         except UsageError as error:

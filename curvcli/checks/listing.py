@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from difflib import get_close_matches
 
 from ..errors import UsageError
+from ..nearest import suggestion
 from .base import Check, rules
 
 
@@ -35,6 +35,5 @@ def known_checks(names: str | Iterable[str]) -> list[str]:
     entries = [names] if isinstance(names, str) else names
     wanted = {name.strip() for entry in entries for name in entry.split(",")}
     for name in sorted(wanted - rules.keys()):
-        near = get_close_matches(name, rules, 3, 0.4) or list(rules)
-        raise UsageError(f"unknown check {name!r}; nearest: {', '.join(near)}")
+        raise UsageError(f"unknown check {name!r}{suggestion(name, rules, '`curvcli help checks` lists them')}")
     return [name for name in rules if name in wanted]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 import click
@@ -95,6 +95,7 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
 
     Errors: UsageError that names file and key.
     """
+    from ..nearest import suggestion
     from .main import COMMANDS
 
     command = find(name)
@@ -102,7 +103,8 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
         if not isinstance(table, dict):
             hint = f"keys belong to the table of a command, such as {heading(path, 'analyze')}"
             raise UsageError(f"{path}: {name}: stands in no table; {hint}")
-        raise UsageError(f"{path}: {heading(path, name)}: there is no such command; {_near(name, COMMANDS)}")
+        way_out = suggestion(name, COMMANDS, "`curvcli --help` lists them")
+        raise UsageError(f"{path}: {heading(path, name)}: there is no such command{way_out}")
     if not isinstance(table, dict):
         raise UsageError(f"{path}: {name}: expected a table, headed {heading(path, name)}")
     options = {key: option for option in _options(command) for key in _keys(option)}
@@ -111,7 +113,8 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
         place = f"{path}: {heading(path, name)} {key}"
         option = options.get(key.replace("_", "-"))
         if option is None or option.name is None:
-            raise UsageError(f"{place}: there is no such option; {_near(key.replace('_', '-'), options)}")
+            way_out = suggestion(key.replace("_", "-"), options, f"`curvcli {name} --help` lists them")
+            raise UsageError(f"{place}: there is no such option{way_out}")
         _refuse(option.name, value, place)
         if option.name in found:
             raise UsageError(f"{place}: is given twice in two spellings")
@@ -129,13 +132,6 @@ def _refuse(name: str, value: Any, place: str) -> None:
         for label in value if isinstance(value, list) else [value]:
             if isinstance(label, str) and (os.path.basename(label) != label or os.path.splitext(label)[1]):
                 raise UsageError(f"{place}: a configuration names no files of labels; give it on the command line")
-
-
-def _near(name: str, known: Iterable[str]) -> str:
-    from difflib import get_close_matches
-
-    known = list(known)
-    return f"nearest: {', '.join(get_close_matches(name, known, 3, 0.4) or known)}"
 
 
 def _options(command: click.Command) -> list[click.Option]:

@@ -48,15 +48,13 @@ def of_command(name: str, topics: dict[str, Topic]) -> None:
 
     Errors: click.UsageError for what is neither a topic nor a command, with the nearest.
     """
-    from difflib import get_close_matches
-
+    from ..nearest import suggestion
     from .main import COMMANDS, cli
 
     context = click.get_current_context().find_root()
     found = cli.get_command(context, name)
     if found is None:
-        known = [*topics, *COMMANDS]
-        near = ", ".join(get_close_matches(name, known, 3, 0.4) or known)
-        raise click.UsageError(f"no topic or command is called {name!r}; nearest: {near}", click.get_current_context())
+        way_out = suggestion(name, [*topics, *COMMANDS], "`curvcli help` lists them")
+        raise click.UsageError(f"no topic or command is called {name!r}{way_out}", click.get_current_context())
     with click.Context(found, info_name=name, parent=context, max_content_width=100) as inner:
         click.echo(found.get_help(inner))

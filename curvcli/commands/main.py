@@ -87,11 +87,10 @@ class LazyGroup(click.Group):
         """Name the nearest commands when there is no such command."""
         name = args[0] if args else ""
         if name and not name.startswith("-") and name not in COMMANDS:
-            from difflib import get_close_matches
+            from ..nearest import suggestion
 
-            near = get_close_matches(name, COMMANDS, 1)
-            guess = f"; did you mean {near[0]}?" if near else ""
-            raise click.UsageError(f"no such command {name!r}, expected one of {', '.join(COMMANDS)}{guess}", ctx)
+            way_out = suggestion(name, COMMANDS, "`curvcli --help` lists them")
+            raise click.UsageError(f"no such command {name!r}{way_out}", ctx)
         told = name in UNCONFIGURED or set(args).intersection(ctx.help_option_names)
         if not ctx.resilient_parsing and not told:
             find: Callable[[str], click.Command | None] = lambda command: self.get_command(ctx, command)  # noqa: E731

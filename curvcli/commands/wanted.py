@@ -11,6 +11,7 @@ import click
 from click.core import ParameterSource
 
 from ..errors import UsageError
+from ..nearest import suggestion
 
 if TYPE_CHECKING:
     from ..output.formats import Format, Kind
@@ -31,8 +32,10 @@ def table_option(text: str, known: Collection[str]) -> tuple[str, str]:
     Errors: UsageError for an unknown kind, with those there are.
     """
     kind, equals, path = text.partition("=")
-    if not equals or not path or kind not in known:
+    if not equals or not path:
         raise UsageError(f"--table {text}: expected KIND=PATH with KIND one of {', '.join(known)}")
+    if kind not in known:
+        raise UsageError(f"--table {text}: there is no table {kind!r}{suggestion(kind, known)}")
     return kind, path
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import UsageError
+from ..nearest import suggestion
 
 DIVERGING, SEQUENTIAL, CATEGORICAL = "crameri:vik", "crameri:batlow", "tol:light"
 CATEGORIES = 9
@@ -204,10 +204,7 @@ def _gradient(name: str, steps: int = _STEPS) -> NDArray[np.uint8]:
         # The full name, because a short one that two collections share is not taken without a word on stderr.
         chosen = Colormap(catalog.resolve(forward))
     except KeyError:
-        names = {key.lower(): key for key in catalog}
-        near = difflib.get_close_matches(forward.lower(), names, n=4, cutoff=0.5)
-        guess = f"; nearest are {', '.join(names[key] for key in near)}" if near else ""
-        raise UsageError(f"--cmap {name}: no such colour map{guess}") from None
+        raise UsageError(f"--cmap {name}: no such colour map{suggestion(forward, catalog)}") from None
     colors = (chosen if forward == plain else chosen.reversed()).lut(steps)
     gradient: NDArray[np.uint8] = np.rint(colors[:, :3] * 255).astype(np.uint8)
     gradient.flags.writeable = False

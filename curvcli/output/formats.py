@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Literal
 
 from ..errors import UsageError
+from ..nearest import suggestion
 from ..printable import shown
 
 Kind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
@@ -64,9 +64,10 @@ def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | N
         return FORMATS[suffix]
     where = f"--format {name}" if name is not None else shown(path)
     problem = f"unknown format {given!r}" if given else "a name without a suffix"
-    near = difflib.get_close_matches(suffix, promised, n=1)
-    guess = f"did you mean {near[0]}? " if near else ""
-    raise UsageError(f"{where}: {problem}; {guess}known here are {_listed(promised, dot=name is None)}")
+    known = promised if name is None else [one.removeprefix(".") for one in promised]
+    written = suffix if name is None else given
+    way_out = suggestion(written, known, f"known here are {_listed(promised, dot=name is None)}")
+    raise UsageError(f"{where}: {problem}{way_out}")
 
 
 def _suffix(path: str) -> str:

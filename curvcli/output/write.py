@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from threading import Event
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -14,6 +13,7 @@ import numpy as np
 from ..declare import Quantity, passes
 from ..errors import Notice, UsageError
 from ..memory import require_polars
+from ..nearest import suggestion
 from ..tables import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
 from .atomic import Outputs
 from .formats import Format, format_of
@@ -174,8 +174,8 @@ def _colored_column(name: str, chosen: list[str]) -> Quantity:
         offered = _columns([quantity.name for quantity in passes.quantities("vertex")])
         if name in offered:
             raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
-        near = get_close_matches(name, offered, 3, 0.4) or list(columns)
-        raise UsageError(f"--color-by {name}: no such column of vertices; nearest: {', '.join(near)}")
+        way_out = suggestion(name, offered, "`curvcli passes` lists them")
+        raise UsageError(f"--color-by {name}: no such column of vertices{way_out}")
     return columns[name]
 
 

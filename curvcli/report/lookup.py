@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 
 from ..errors import LackingError
-from ..nearest import nearest
+from ..nearest import suggestion
 from .model import Piece
 from .quantities import public, smallest_preset
 
@@ -54,8 +54,8 @@ def _why_not(report: dict[str, Any], value: Any, walked: str, key: str) -> str:
     # Only the report of analyze has passes to choose.
     if "topology" in report and (added := _added_by(key, members, walked)):
         return f"is not computed; {added} adds it"
-    near = nearest(key, members) or list(members)[:12]
-    return f"no {key!r} {f'in {walked}' if walked else 'in the report'}, expected one of {', '.join(near)}"
+    listing = f"`--get {walked}` shows them" if walked else "`--json` shows them"
+    return f"no {key!r} {f'in {walked}' if walked else 'in the report'}{suggestion(key, members, listing)}"
 
 
 def _added_by(key: str, members: dict[str, Any], walked: str) -> str | None:

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from ..declare import CELL_AREA, NO_QUANTITIES, Quantity, passes
 from ..errors import UsageError
-from ..nearest import nearest
+from ..nearest import suggestion
 from ..pipeline import load_passes, resolve
 from .advice import plain
 from .console import report_console
@@ -56,9 +56,7 @@ def find(name: str) -> Quantity:
     """
     known = {column: quantity for quantity in reversed(public()) for column in (quantity.name, *quantity.columns)}
     if name not in known:
-        near = nearest(name, known)
-        way_out = f"nearest: {', '.join(near)}" if near else "`curvcli passes` lists them"
-        raise UsageError(f"no quantity is called {name!r}; {way_out}")
+        raise UsageError(f"no quantity is called {name!r}{suggestion(name, known, '`curvcli passes` lists them')}")
     return known[name]
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Literal
 
 from ..analysis import Analysis
 from ..errors import UsageError
+from ..nearest import suggestion
 from ..report.check import number
 
 Test = Callable[..., str]
@@ -85,8 +85,7 @@ def _parse_one(text: str) -> Requirement:
     name, equals, text_of_value = (part.strip() for part in text.partition("="))
     kind = kinds.get(name)
     if kind is None:
-        near = get_close_matches(name, kinds, 3, 0.4) or [one.usage for one in kinds.values()]
-        raise UsageError(f"unknown requirement {name!r}; nearest: {', '.join(near)}")
+        raise UsageError(f"unknown requirement {name!r}{suggestion(name, kinds, '`curvcli help checks` lists them')}")
     if not kind.number:
         if equals:
             raise UsageError(f"requirement {text}: {name} takes no number")

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ..errors import UsageError
+from ..nearest import suggestion
 
 if TYPE_CHECKING:
     from .model import Sample, SampleSpec
@@ -64,7 +64,6 @@ def get(name: str) -> SampleSpec:
     known = {spec.name: spec for spec in specs()}
     spec = known.get(name.strip().lower().replace("-", "_"))
     if spec is None:
-        nearest = difflib.get_close_matches(name.strip().lower().replace("-", "_"), known, n=3, cutoff=0.5)
-        advice = f"nearest: {', '.join(nearest)}" if nearest else f"known: {', '.join(known)}"
-        raise UsageError(f"there is no sample named {name!r}; {advice}")
+        way_out = suggestion(name, known, "`curvcli sample --help` lists them")
+        raise UsageError(f"there is no sample named {name!r}{way_out}")
     return spec

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import UsageError
+from ..nearest import suggestion
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int32]
@@ -107,7 +108,8 @@ class SampleSpec:
 
     def _demand_known(self, key: str, typed: str) -> None:
         known = [parameter.name for parameter in self.parameters]
-        demand(key in known, f"sample {self.name} has no parameter {typed!r}; it has {', '.join(known) or 'none'}")
+        way_out = suggestion(typed, known) if known else "; it has none"
+        demand(key in known, f"sample {self.name} has no parameter {typed!r}{way_out}")
 
     def __call__(self, **values: int | float | bool) -> Sample:
         """Make the surface; UsageError for a parameter it does not have or a value it cannot be made with."""

@@ -74,7 +74,7 @@ def test_one_value(within: Run, square: Path, stretched: Path) -> None:
     assert within("compare", square, stretched, "--map", "--get", "checks.nonconformality.status")[1] == "pass\n"
     code, out, err = within("compare", square, stretched, "--map", "--get", "totals.aera")
     assert (code, out) == (2, "")
-    assert "expected one of area" in err
+    assert "nearest: area" in err
 
 
 def test_summary(within: Run, square: Path, stretched: Path) -> None:

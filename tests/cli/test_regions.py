@@ -92,7 +92,7 @@ def test_property_of_a_ply(within: Run, kind: str) -> None:
     assert faces(named(within, "parts.ply", "part")) == {"2": 1, "4": 3}
     assert faces(named(within, "parts.ply", "quality")) == {"8": 1, "9": 3}
     ended = within("analyze", "parts.ply", "--regions", "vertex_indices")
-    assert (ended.code, "it has part, quality" in ended.complaint) == (2, True)
+    assert (ended.code, "known: part, quality" in ended.complaint) == (2, True)
 
 
 def npy(header: str, content: bytes = b"\0" * 24) -> bytes:
@@ -167,6 +167,8 @@ def test_unknown_names(within: Run, regions: str) -> None:
 def test_known_names_are_offered(within: Run) -> None:
     ended = within("analyze", "labelled.obj", "--regions", "group")
     assert ended.code == 2
+    assert ended.complaint.endswith("; nearest: groups")
+    ended = within("analyze", "labelled.obj", "--regions", "xyzzy")
     assert all(name in ended.complaint for name in ("groups", "objects", "materials"))
 
 

@@ -130,7 +130,7 @@ def test_maps_by_any_of_their_names() -> None:
 
 
 def test_an_unknown_map_is_answered_with_near_names() -> None:
-    with pytest.raises(UsageError, match=r"--cmap virdis: no such colour map; nearest are .*viridis"):
+    with pytest.raises(UsageError, match=r"--cmap virdis: no such colour map; nearest: .*viridis"):
         scale([0], cmap="virdis")
 
 

@@ -26,7 +26,7 @@ def test_an_unknown_suffix_is_answered_with_the_list(path: str) -> None:
 
 
 def test_a_near_suffix_is_named() -> None:
-    with pytest.raises(UsageError, match=r"did you mean \.parquet\?"):
+    with pytest.raises(UsageError, match=r"nearest: \.parquet"):
         format_of("b.parqet")
 
 
