@@ -64,6 +64,6 @@ def get(name: str) -> SampleSpec:
     known = {spec.name: spec for spec in specs()}
     spec = known.get(name.strip().lower().replace("-", "_"))
     if spec is None:
-        way_out = suggestion(name, known, "`curvcli sample --help` lists them")
+        way_out = suggestion(name, known, "`curvcli sample` lists them")
         raise UsageError(f"there is no sample named {name!r}{way_out}")
     return spec

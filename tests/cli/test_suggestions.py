@@ -9,8 +9,8 @@ import pytest
 
 import curvcli
 from curvcli.nearest import nearest, suggestion
-from tests.cli.program import CUBE
 from tests.cli.conftest import Run
+from tests.cli.program import CUBE
 
 FOLDER = Path(curvcli.__file__).parent
 
