@@ -56,6 +56,7 @@ def principal_curvatures(h_signed: Column, K_density: Column, cell_area: Column)
     formula="h/2 + √(h²/4 − K_density) = max(|κ₁|, |κ₂|)",
     kind="density",
     length_exponent=-1,
+    rooted=True,
     preserves="even in the normal: defined where the surface has no orientation; 1/kappa_max is the tightest radius",
     boundary="null",
     source="curvcli; κ₁ and κ₂ as in Sullivan, Curvatures of smooth surfaces",
