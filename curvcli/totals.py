@@ -127,8 +127,8 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
 def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
     """Steiner's polynomial Vol + t·Area + t²/2·ΣH_theta + t³/3·ΣK, (G, 4), and whether each body is convex.
 
-    For a convex body it is the volume at distance t. NaN where the volume is. Convex: closed, connected, χ = 2 and
-    ΣK⁻ ≤ 16 ε (F + V).
+    For a convex body it is the volume at distance t, also where the body is wound inside out. NaN where the volume is.
+    Convex: closed, connected, χ = 2 and ΣK⁻ ≤ 16 ε (F + V).
     """
     counts = census(surface, groups)
     integrals = [
@@ -137,12 +137,15 @@ def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dic
         groups.edges(surface).sum(columns["H_theta"]) / 2,
         groups.vertices.sum(columns["K"]) / 3,
     ]
-    shown = [surface.in_file_unit(value, 3 - power) for power, value in enumerate(integrals)]
-    coefficients = np.where(np.isnan(integrals[0])[:, None], np.nan, np.stack(shown, axis=1))
     sphere = counts.closed & counts.manifold & (counts.euler_characteristic == 2)
     single = classify(surface, groups).components == 1
     bent = groups.vertices.sum(columns["K_minus"]) > 16 * EPSILON * (counts.faces + counts.vertices)
-    return {"coefficients": coefficients, "convex": sphere & single & ~bent}
+    convex = sphere & single & ~bent
+    for odd in (0, 2):  # under reversal
+        integrals[odd] = np.where(convex, np.abs(integrals[odd]), integrals[odd])
+    shown = [surface.in_file_unit(value, 3 - power) for power, value in enumerate(integrals)]
+    coefficients = np.where(np.isnan(integrals[0])[:, None], np.nan, np.stack(shown, axis=1))
+    return {"coefficients": coefficients, "convex": convex}
 
 
 def competing_normals(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -35,6 +36,33 @@ def test_steiner_polynomial_of_a_tetrahedron() -> None:
     found = sample("tetrahedron", edge=2.0).report()["steiner"]["coefficients"]
     wanted = [8 / math.sqrt(72), 4 * math.sqrt(3), 6 * (math.pi - math.acos(1 / 3)), 4 * math.pi / 3]
     np.testing.assert_allclose(found, wanted, rtol=1e-14)
+
+
+@pytest.mark.parametrize("make", [lambda: of_sample("cube"), meshes.tetrahedron, meshes.ellipsoid])
+def test_steiner_polynomial_of_a_body_wound_inside_out(make: Callable[[], Mesh]) -> None:
+    """It is the polynomial of the body, with the warning, alone and as a component beside the body itself."""
+    body = make()
+    right, wrong = analyse(body), analyse(meshes.reversed_faces(body))
+    known, found = right.report()["steiner"], wrong.report()["steiner"]
+    assert found["convex"] is known["convex"] is True
+    np.testing.assert_allclose(found["coefficients"], known["coefficients"], rtol=1e-14)
+    assert min(found["coefficients"]) > 0
+    assert wrong.totals["volume"] == -right.totals["volume"]
+    assert "inside_out" in [notice.code for notice in wrong.notices]
+    pair = meshes.joined(meshes.reversed_faces(body), body.moved(body.points + 100))
+    for piece in analyse(pair).report()["components"]:
+        np.testing.assert_allclose(piece["steiner"]["coefficients"], known["coefficients"], rtol=1e-11)
+
+
+def test_steiner_polynomial_of_a_cube_wound_inside_out() -> None:
+    found = analyse(meshes.reversed_faces(of_sample("cube"))).report()["steiner"]
+    np.testing.assert_allclose(found["coefficients"], [1, 6, 3 * math.pi, 4 * math.pi / 3], rtol=1e-15)
+
+
+def test_steiner_polynomial_of_what_is_not_convex_keeps_its_signs() -> None:
+    body = meshes.torus()
+    right, wrong = (analyse(one).report()["steiner"]["coefficients"] for one in (body, meshes.reversed_faces(body)))
+    np.testing.assert_allclose(wrong, [-right[0], right[1], -right[2], right[3]], rtol=1e-12, atol=1e-12)
 
 
 @pytest.mark.parametrize("distance", [0.05, 0.5, 3.0])

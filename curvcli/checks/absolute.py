@@ -13,17 +13,17 @@ from .base import Outcome, check, exclude_null
 
 
 @check(
-    gap="2π(2 + 2g) − ΣK⁺ − ΣK⁻",
-    applies="closed orientable manifolds, per component",
+    gap="2π(4 − χ) − ΣK⁺ − ΣK⁻",
+    applies="closed manifolds, one-sided ones too, per component",
     bound="16ε(F + V)",
-    failure="the normal cones of K⁺ or K⁻ are too small somewhere: every closed surface of genus g has at least this "
-    "much curvature.",
+    failure="the normal cones of K⁺ or K⁻ are too small somewhere: every closed surface has at least this much "
+    "curvature.",
 )
 def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K_minus: Column) -> Outcome:
-    """ΣK⁺ + ΣK⁻ ≥ 2π(2 + 2g) for each closed orientable component (Chern–Lashof); equality means tight."""
+    """ΣK⁺ + ΣK⁻ ≥ 2π(4 − χ) for each closed component, one-sided or not (Chern–Lashof, Kuiper); if equal, tight."""
     counts = census(surface, groups)
     value = groups.vertices.sum(K_plus) + groups.vertices.sum(K_minus)
-    # 2 + 2g = 4 − χ, summed over the components of the group
+    # 2 + 2g if orientable, 2 + the number of crosscaps if not
     bound = np.asarray(2 * np.pi * (4 * classify(surface, groups).components - counts.euler_characteristic), np.float64)
     tolerance = np.asarray(16 * EPSILON * (counts.faces + counts.vertices), np.float64)
     surplus = value - bound
@@ -36,6 +36,5 @@ def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K
     outcome = Outcome(value, bound, tolerance, detail=detail, residual=np.maximum(-surplus, 0.0))
     outcome.exclude(~counts.closed, "the surface is not closed")
     outcome.exclude(~counts.manifold, "the surface is not a manifold")
-    outcome.exclude(~counts.orientable, "the surface has no orientation")
     exclude_null(outcome, groups, surface, np.isnan(K_plus), "K_plus")
     return outcome

@@ -52,7 +52,7 @@ _SHARED = {
             symbol="|K|_p",
             formula="K⁺ + K⁻",
             total="K_abs",
-            preserves="total_absolute_curvature: Σ ≥ 2π(2 + 2g), equality on tight surfaces",
+            preserves="total_absolute_curvature: Σ ≥ 2π(4 − χ), equality on tight surfaces",
             description="Absolute Gauss curvature, a measure: K_abs/2π is the mean number of critical points, counted "
             "with multiplicity, that height functions have at p.",
             **_SHARED,  # type: ignore[arg-type]

@@ -82,7 +82,7 @@ class Minimal(msgspec.Struct):
 
 
 class Steiner(msgspec.Struct):
-    """Steiner's polynomial, lowest power first; exact for convex bodies."""
+    """Steiner's polynomial, lowest power first; exact for convex bodies, also where they are wound inside out."""
 
     coefficients: Coefficients | None
     convex: bool
