@@ -15,6 +15,7 @@ from ..loading.limits import parse_weld
 from ..memory import ran_out
 from . import options
 from .configured import configuration
+from .stems import stem
 from .talk import internal, say
 from .wanted import one_stdout, stdin_once, table_option
 
@@ -259,8 +260,5 @@ def expand(output: str, mesh: str, meshes: int) -> str:
         if meshes > 1 and output != "-":
             raise UsageError(f"{output}: {meshes} meshes would share this output; put {{stem}} into its name")
         return output
-    name = os.path.basename(mesh)
-    for suffix in (".gz", ".obj", ".ply", ".stl"):
-        if name.lower().endswith(suffix):
-            name = name[: -len(suffix)]
-    return output.replace("{stem}", name if mesh != "-" else "stdin")
+    path = output.replace("{stem}", stem(mesh) if mesh != "-" else "stdin")
+    return path if path != "-" else os.path.join(os.curdir, path)  # the name of a mesh is no stream

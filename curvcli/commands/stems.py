@@ -1,0 +1,29 @@
+"""What `{stem}` stands for in the name of an output: always one name, never a way into another folder."""
+
+from __future__ import annotations
+
+import os
+
+# What Windows takes for a device, whatever follows behind a dot.
+_DEVICES = {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))}
+
+
+def stem(mesh: str, windows: bool = os.name == "nt") -> str:
+    """The name of a mesh's file without its suffixes.
+
+    The whole name stands where nothing but dots is left without the suffix: `...ply` would be the folder above. A path
+    that ends in no name, such as `..`, goes by the folder it means. On Windows a device, such as `NUL`, gets an
+    underscore, and so do the dots and blanks at the end of a name, which Windows leaves out.
+    """
+    whole = os.path.basename(mesh)
+    if whole in ("", os.curdir, os.pardir):
+        whole = os.path.basename(os.path.abspath(mesh)) or "_"
+    name = whole
+    for suffix in (".gz", ".obj", ".ply", ".stl"):
+        if name.lower().endswith(suffix):
+            name = name[: -len(suffix)]
+    if not name.strip(". "):
+        name = whole
+    if windows and (name.partition(".")[0].strip().casefold() in _DEVICES or name[-1:] in (".", " ")):
+        name += "_"
+    return name
