@@ -1,8 +1,8 @@
 """Normal cones of the convex hulls of stars: how much of the sphere of directions a vertex supports.
 
 Directions come as (3, d, n): d directions at each of n apices, and everything is computed for all apices at once. Few
-directions in general position have their facets counted out, at a cost of n d³ simple operations; the others have
-their hulls wrapped.
+directions in general position have their facets counted out, at a cost of n d³ simple operations; the hulls of the
+others are built direction by direction, with exact decisions.
 """
 
 from __future__ import annotations
@@ -11,26 +11,30 @@ from itertools import combinations
 
 import numpy as np
 
-from .blocks import Floats, cross, dot
+from .blocks import EPSILON, Floats, cross, dot
+from .hulls import hull_cone_areas
 from .topology import Mask
-from .wrapping import COPLANAR, UNDERFLOW, wrapped_cone_areas
 
-# Up to so many directions, all their determinants cost less than wrapping.
+# Up to so many directions, all their determinants cost less than building the hull.
 _COUNTED = 16
+# The error bound of a determinant of unit vectors, with room.
+_COPLANAR = 32 * EPSILON
+# Squares below this have lost digits to the end of the range of doubles.
+_UNDERFLOW = float(np.finfo(np.float64).tiny) / EPSILON
 
 
-def normal_cone_areas(directions: Floats, hint: Floats) -> Floats:
+def normal_cone_areas(directions: Floats, hint: Floats | None = None) -> Floats:
     """(n,) solid angle of the normal cone {x: x·d_i ≤ 0} of the cone that the directions span.
 
     2π − Σ of the angles between neighbouring extreme directions; 0 where the cone contains a line. directions:
-    (3, d, n), none of them zero. hint: (3, n) any vectors; where all directions are on one side of it, that saves time.
+    (3, d, n), none of them zero. hint: accepted from older callers, and of no effect.
     """
     if directions.shape[1] > _COUNTED:
-        return wrapped_cone_areas(directions, hint)
+        return hull_cone_areas(directions)
     area, unsure = _by_facets(directions)
     rest = np.flatnonzero(unsure)
     if len(rest):
-        area[rest] = wrapped_cone_areas(directions[:, :, rest], hint[:, rest])
+        area[rest] = hull_cone_areas(directions[:, :, rest])
     return area
 
 
@@ -41,11 +45,11 @@ def _by_facets(directions: Floats) -> tuple[Floats, Mask]:
     """
     d, n = directions.shape[1:]
     square = dot(directions, directions).max(axis=0)
-    rounding = COPLANAR * square * np.sqrt(square)
+    rounding = _COPLANAR * square * np.sqrt(square)
     pairs = list(combinations(range(d), 2))
     place = {pair: k for k, pair in enumerate(pairs)}
     sides = np.zeros((len(pairs), n), np.int8)
-    unsure = np.full(n, d < 3) | ((COPLANAR * square) ** 2 < UNDERFLOW)
+    unsure = np.full(n, d < 3) | ((_COPLANAR * square) ** 2 < _UNDERFLOW)
     for i, j in pairs:
         later = d - 1 - j
         if not later:

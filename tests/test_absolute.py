@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import combinations
-from math import gcd
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -14,6 +11,7 @@ import curvcli
 from curvcli import cones
 from curvcli.cones import normal_cone_areas
 from tests import meshes
+from tests.exact_cones import by_integers
 from tests.meshes import Mesh, mesh
 
 Floats = NDArray[np.float64]
@@ -38,46 +36,6 @@ def by_qhull(directions: Floats) -> float:
     return TURN - sum(angle(*pair) for pair in corners) if corners else 0.0
 
 
-Whole = tuple[int, int, int]
-
-
-def times(a: Whole, b: Whole) -> Whole:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def along(a: Whole, b: Whole) -> int:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def sector(plane: list[Whole], normal: Whole) -> float | None:
-    """The angle that directions in a plane span; None if they contain a line."""
-    for a in plane:
-        for b in plane:
-            inside = all(along(times(a, d), normal) >= 0 <= along(times(d, b), normal) for d in plane)
-            opposite = any(times(a, d) == (0, 0, 0) and along(a, d) < 0 for d in plane)
-            if inside and not opposite and (along(times(a, b), normal) > 0 or times(a, b) == (0, 0, 0)):
-                return angle(np.array(a, float), np.array(b, float))
-    return None
-
-
-def by_integers(star: list[Whole]) -> float:
-    """The same for directions of integers, every decision exact."""
-    planes = set()
-    for a, b in combinations(star, 2):
-        for normal in (times(a, b), times(b, a)):
-            common = gcd(*normal)
-            if common and all(along(normal, d) >= 0 for d in star):
-                planes.add((normal[0] // common, normal[1] // common, normal[2] // common))
-    if not planes:
-        one_line = all(times(star[0], d) == (0, 0, 0) for d in star)
-        return TURN if one_line and all(along(star[0], d) > 0 for d in star) else 0.0
-    flat = all(along(normal, d) == 0 for normal in planes for d in star)
-    if len(planes) < 3 and not flat:
-        return 0.0
-    sectors = [sector([d for d in star if along(normal, d) == 0], normal) for normal in planes]
-    return 0.0 if None in sectors else TURN - sum(x for x in sectors if x)
-
-
 @pytest.mark.parametrize("degree", [3, 4, 5, 6, 7, 9, 16, 40, 200])
 @pytest.mark.parametrize("height", [0.0, 0.3, 1.0, 3.0])
 def test_random_stars_against_qhull(degree: int, height: float) -> None:
@@ -99,7 +57,7 @@ def test_stars_of_integers(degree: int, low: int, high: int, turned: bool) -> No
     stars = rng.integers(low, high, size=(200, degree, 3), endpoint=True)
     stars[::2] = stars[::2] @ rng.integers(-2, 2, size=(100, 3, 3), endpoint=True)
     stars = stars[(stars != 0).any(axis=2).all(axis=1)]
-    wanted = [by_integers([tuple(d) for d in star]) for star in stars.tolist()]
+    wanted = [float(by_integers([tuple(d) for d in star])) for star in stars.tolist()]
     found = areas(stars @ meshes.rotation().T if turned else stars)
     np.testing.assert_allclose(found, wanted, rtol=0, atol=2e-14)
 
@@ -121,8 +79,8 @@ def test_decisions_within_rounding_move_the_result_by_rounding(noise: float) -> 
 
 @pytest.mark.parametrize("degree", [3, 4, 6, 9, 16])
 @pytest.mark.parametrize("height", [1e-6, 1e-2, 1.0])
-def test_counting_and_wrapping_agree(degree: int, height: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Caps, saddles and what is between, nearly flat and steep, by their facets and with their hulls wrapped."""
+def test_counting_and_building_agree(degree: int, height: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Caps, saddles and what is between, nearly flat and steep, by their facets and with their hulls built up."""
     rng = np.random.default_rng(degree)
     turn = TURN * np.arange(degree) / degree + rng.normal(scale=0.1, size=(200, degree))
     bend, saddle = rng.normal(size=(2, 200, 1))

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 
 from ..blocks import EPSILON
 from ..cones import normal_cone_areas
-from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
+from ..declare import Column, Flags, Quantity, curvature_pass
 from ..slices import slices
 from ..surface import Surface
 from ..threads import for_each
@@ -59,7 +59,7 @@ _SHARED = {
         ),
     )
 )
-def absolute_curvature(surface: Surface, K: Column, theta: Column, star_vector: VectorColumn) -> tuple[Column, ...]:
+def absolute_curvature(surface: Surface, K: Column, theta: Column) -> tuple[Column, ...]:
     """K⁺, K⁻ and |K| from the convex hull of each star; needs no orientation."""
     plus = np.where(surface.interior, np.maximum(K, 0.0), np.nan)
     chosen = np.flatnonzero(surface.interior & ~np.isnan(K) & ~locally_convex(surface, K, theta))
@@ -69,7 +69,7 @@ def absolute_curvature(surface: Surface, K: Column, theta: Column, star_vector: 
         vertices, degree = block
         around = neighbours.of(vertices, degree)
         directions = np.array([x.take(around) - x.take(vertices) for x in surface.xyz])
-        plus[vertices] = np.maximum(plus[vertices], normal_cone_areas(directions, star_vector[:, vertices]))
+        plus[vertices] = np.maximum(plus[vertices], normal_cone_areas(directions))
 
     for_each(_blocks_by_degree(chosen, surface.degree), hull)
     minus = np.maximum(plus - K, 0.0)
