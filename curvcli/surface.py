@@ -30,6 +30,7 @@ from .topology import Index, Mask, renumber_by_lowest_member, vertex_components
 
 if TYPE_CHECKING:
     from .loading.model import MeshFile
+    from .solids import Nesting
 
 # Extents between these powers of two are computed in the file's own unit; outside, the eighth power of an edge, which
 # the cross ratio's square needs, would leave the range of doubles at edges 2⁵³ times shorter than the extent.
@@ -238,19 +239,50 @@ class Surface(Incidence):
 
     @cached_property
     @frozen
+    def solid_patches(self) -> Mask:
+        """(patches,) closed orientable patches: those that have an inside."""
+        solid: Mask = self.closed_patches & self._file_orientation.orientable
+        return solid
+
+    @cached_property
+    def nesting(self) -> Nesting:
+        """Depth of each patch, the number of solid patches around it, and pairs of them that cross."""
+        from .solids import Nesting, nest
+
+        depth, patches = np.zeros(len(self.solid_patches), np.int64), np.flatnonzero(self.solid_patches)
+        if len(patches) < 2:
+            return Nesting(depth, np.zeros((0, 2), np.int64))
+        number = np.where(self.solid_patches, np.cumsum(self.solid_patches) - 1, -1)
+        sign = np.sign(self._patch_volumes[patches]).astype(np.int64)
+        nested = nest(self.xyz, self.faces, number[self._file_orientation.patch], sign)
+        depth[patches] = nested.depth
+        return Nesting(depth, patches[nested.crossing])
+
+    @cached_property
+    @frozen
     def inside_out(self) -> Mask:
-        """(patches,) closed orientable patches whose volume is negative, beyond rounding, as the file winds them."""
+        """(patches,) closed orientable patches of the wrong side, as the file winds them: the sign of the volume, beyond
+        rounding, is not (−1) to the depth. Patches that cross another one have no depth, and are not among them."""
         found = self._file_orientation
-        candidates = self.closed_patches & found.orientable
-        if not candidates.any():
-            return candidates
+        if not self.solid_patches.any():
+            return self.solid_patches
+        candidates, volume = self.solid_patches, self._patch_volumes
+        if np.count_nonzero(candidates) > 1:
+            candidates = candidates & ~self.nesting.crosses()
+            volume = volume * (1 - 2 * (self.nesting.depth % 2))
+        wrong = candidates & (volume < 0)
+        if wrong.any():
+            chosen = np.flatnonzero(wrong[found.patch])
+            errors = volume_errors(self, self.components.face, chosen)
+            wrong &= volume + np.bincount(found.patch[chosen], errors, minlength=len(wrong)) < 0
+        return wrong
+
+    @cached_property
+    def _patch_volumes(self) -> NDArray[np.float64]:
+        """(patches,) sums of the volumes of the faces, as the patch is oriented."""
+        found = self._file_orientation
         volume = self.face_volumes if found.face_sign is None else self.face_volumes * found.face_sign
-        negative = candidates & (np.bincount(found.patch, volume, minlength=len(candidates)) < 0)
-        if negative.any():
-            chosen = np.flatnonzero(negative[found.patch])
-            volume = volume[chosen] + volume_errors(self, self.components.face, chosen)
-            negative &= np.bincount(found.patch[chosen], volume, minlength=len(negative)) < 0
-        return negative
+        return np.bincount(found.patch, volume, minlength=len(found.orientable))
 
     @cached_property
     @frozen
