@@ -14,6 +14,7 @@ from .errors import Notice
 from .loading.weld import weld_exact
 from .plurals import agree, counted
 from .precision import is_single, last_place
+from .solids.notices import of_solids
 from .surface import Surface
 from .topology import faces_at, find_edges
 
@@ -42,6 +43,7 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     yield from _not_a_manifold(surface)
     yield from _vertices_and_faces(surface, columns)
     yield from _winding(surface)
+    yield from of_solids(surface)
     if "star_extent" in columns:
         yield from _coordinate_rounding(surface, columns)
     if "kappa_clamped" in columns:
@@ -157,16 +159,6 @@ def _winding(surface: Surface) -> Iterator[Notice]:
         "[patch|patches] without orientation, named by [its|their] lowest face; "
         "signed mean curvature is undefined there",
         "K, areas and H_vec need none; `curvcli check --require oriented` refuses such files",
-    )
-    outward = surface.orient == "outward"
-    yield Notice.at(
-        "inside_out",
-        _first_faces(surface, surface.inside_out),
-        "closed [patch|patches], named by [its|their] lowest face, turned outwards"
-        if outward
-        else "closed [patch|patches] of negative volume, named by [its|their] lowest face: [its|their] normals point "
-        "inwards and signs are reversed",
-        "--orient file keeps the sides that the file gives" if outward else "--orient outward turns [it|them]",
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arrays import as_components, as_triangles, frozen, with_repeated_corner
-from .blocks import triple_products, volume_errors
+from .blocks import triple_products
 from .errors import InputError, Notice
 from .groups import Groups, by_label, whole
 from .incidence import Incidence
@@ -26,11 +26,11 @@ from .orientation import (
     uncancelled_rim,
 )
 from .plurals import counted
+from .solids.patches import Solids
 from .topology import Index, Mask, renumber_by_lowest_member, vertex_components
 
 if TYPE_CHECKING:
     from .loading.model import MeshFile
-    from .solids import Nesting
 
 # Extents between these powers of two are computed in the file's own unit; outside, the eighth power of an edge, which
 # the cross ratio's square needs, would leave the range of doubles at edges 2⁵³ times shorter than the extent.
@@ -186,7 +186,7 @@ class Surface(Incidence):
 
     @cached_property
     def orientation(self) -> Orientation:
-        """Patches and the sign of each face; with orient="outward" closed patches of negative volume are turned."""
+        """Patches and the sign of each face; with orient="outward" closed patches that are inside out are turned."""
         found = self._file_orientation
         if self.orient == "file" or not self.inside_out.any():
             return found
@@ -238,51 +238,14 @@ class Surface(Incidence):
         return closed
 
     @cached_property
-    @frozen
-    def solid_patches(self) -> Mask:
-        """(patches,) closed orientable patches: those that have an inside."""
-        solid: Mask = self.closed_patches & self._file_orientation.orientable
-        return solid
+    def solids(self) -> Solids:
+        """The closed orientable patches as the file winds them: how they nest, and which are inside out."""
+        return Solids(self, self._file_orientation)
 
-    @cached_property
-    def nesting(self) -> Nesting:
-        """Depth of each patch, the number of solid patches around it, and pairs of them that cross."""
-        from .solids import Nesting, nest
-
-        depth, patches = np.zeros(len(self.solid_patches), np.int64), np.flatnonzero(self.solid_patches)
-        if len(patches) < 2:
-            return Nesting(depth, np.zeros((0, 2), np.int64))
-        number = np.where(self.solid_patches, np.cumsum(self.solid_patches) - 1, -1)
-        sign = np.sign(self._patch_volumes[patches]).astype(np.int64)
-        nested = nest(self.xyz, self.faces, number[self._file_orientation.patch], sign)
-        depth[patches] = nested.depth
-        return Nesting(depth, patches[nested.crossing])
-
-    @cached_property
-    @frozen
+    @property
     def inside_out(self) -> Mask:
-        """(patches,) closed orientable patches of the wrong side, as the file winds them: the sign of the volume, beyond
-        rounding, is not (−1) to the depth. Patches that cross another one have no depth, and are not among them."""
-        found = self._file_orientation
-        if not self.solid_patches.any():
-            return self.solid_patches
-        candidates, volume = self.solid_patches, self._patch_volumes
-        if np.count_nonzero(candidates) > 1:
-            candidates = candidates & ~self.nesting.crosses()
-            volume = volume * (1 - 2 * (self.nesting.depth % 2))
-        wrong = candidates & (volume < 0)
-        if wrong.any():
-            chosen = np.flatnonzero(wrong[found.patch])
-            errors = volume_errors(self, self.components.face, chosen)
-            wrong &= volume + np.bincount(found.patch[chosen], errors, minlength=len(wrong)) < 0
-        return wrong
-
-    @cached_property
-    def _patch_volumes(self) -> NDArray[np.float64]:
-        """(patches,) sums of the volumes of the faces, as the patch is oriented."""
-        found = self._file_orientation
-        volume = self.face_volumes if found.face_sign is None else self.face_volumes * found.face_sign
-        return np.bincount(found.patch, volume, minlength=len(found.orientable))
+        """(patches,) closed orientable patches whose normals point to the wrong side, see `Solids`."""
+        return self.solids.inside_out
 
     @cached_property
     @frozen

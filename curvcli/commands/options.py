@@ -97,7 +97,8 @@ orient = click.option(
     type=click.Choice(["file", "outward"]),
     default="file",
     show_default=True,
-    help="Keep the file's orientation, or turn closed patches of negative volume.",
+    help="Keep the file's orientation, or turn closed patches that are inside out: bodies get a positive volume, "
+    "cavities in them a negative one.",
 )
 weld = click.option(
     "--weld",

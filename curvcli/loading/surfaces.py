@@ -27,8 +27,8 @@ def load(
     """Read an OBJ, PLY or STL file as the surface it describes: rows in file order, seams never cut, nothing repaired.
 
     weld: `auto` (STL by exact position, OBJ and PLY not at all), `none`, `exact`, or a tolerance relative to the
-    diagonal of the bounding box. orient: `outward` turns closed patches of negative volume. normals: `file` also reads
-    the normals of an OBJ file; those of a PLY file are among its properties anyhow.
+    diagonal of the bounding box. orient: `outward` turns closed patches that are inside out. normals: `file` also
+    reads the normals of an OBJ file; those of a PLY file are among its properties anyhow.
     Errors: InputError, one line with file, place, expectation and way out.
     """
     from .read import read_and_make

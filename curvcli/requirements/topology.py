@@ -8,6 +8,8 @@ import numpy as np
 
 from ..analysis import Analysis
 from ..census import census, classify
+from ..solids.notices import kinds
+from ..surface import Surface
 from .base import requirement
 from .places import edges, face_name, joined, located, vertices
 
@@ -59,17 +61,40 @@ def consistent_winding(analysis: Analysis) -> str:
     return edges(analysis.surface, analysis.surface.winding_conflicts, "along which both faces run the same way")
 
 
-@requirement("outward", remedy="reverse all faces of the patch named, or analyse with `--orient outward`")
+@requirement(
+    "outward",
+    remedy="reverse all faces of the patch named, or analyse with `--orient outward`; unite bodies that cross",
+)
 def outward(analysis: Analysis) -> str:
-    """Every closed patch has positive volume as the file winds it; open ones have no outside."""
+    """Bodies have a positive volume and cavities a negative one as the file winds them; no two closed patches cross."""
     surface = analysis.surface
-    turned = np.flatnonzero(surface.inside_out)
-    if len(turned):
-        first = face_name(surface, np.flatnonzero(surface.orientation.patch == turned[0])[0])
-        return located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
-    if not (surface.closed_patches & surface.orientation.orientable).any():
+    solids = surface.solids
+    if not solids.count:
         return "no patch is closed and orientable, so that none has an outside"
-    return ""
+    return joined(_inside_out(surface), _crossing(surface))
+
+
+def _inside_out(surface: Surface) -> str:
+    solids = surface.solids
+    turned = np.flatnonzero(solids.inside_out)
+    if not len(turned):
+        return ""
+    first = face_name(surface, solids.first_face[turned[0]])
+    found = located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
+    if len(turned) > 1:
+        return f"{found}: {kinds(surface, turned)}"
+    return f"{found}: a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
+
+
+def _crossing(surface: Surface) -> str:
+    solids = surface.solids
+    if not len(solids.crossing):
+        return ""
+    some = [[face_name(surface, solids.first_face[patch]) for patch in pair] for pair in solids.crossing[:3]]
+    more = len(solids.crossing) - len(some)
+    listed = ", ".join(" and ".join(pair) for pair in some) + (f", {more:,} more" if more else "")
+    patches = len(np.unique(solids.crossing))
+    return f"{patches:,} closed patches cross or coincide ({listed}): they have no depth and are kept as wound"
 
 
 @requirement("connected", remedy="remove loose parts; `--table components=PATH` lists them")

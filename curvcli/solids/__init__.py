@@ -1,5 +1,1 @@
-"""Closed surfaces in space: which lies inside which, and which cross."""
-
-from .nesting import Nesting, nest
-
-__all__ = ["Nesting", "nest"]
+"""Closed surfaces in space: on which side of them a point lies, which lie inside which, and which cross."""

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..slices import slices
 from .boxes import BoxTree
 from .contacts import find_contacts, samples
 from .sides import INSIDE, OUTSIDE, ROUNDING, Floats, Ints, Mask, Sides
-from ..slices import slices
 
 # Pairs of faces in contact that are looked at for points on both sides.
 _CONTACTS = 200_000
@@ -48,7 +48,9 @@ def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integ
     low, high = _boxes(xyz, faces, surface, n)
     root = np.zeros(1, np.int64)
     meeting = BoxTree(low, high, np.zeros(n, np.int32), 1).meeting(root, root)
-    pairs = np.sort(np.concatenate([np.zeros((2, 0), np.int64), *map(np.stack, (x[1:] for x in meeting))], axis=1), axis=0)
+    pairs = np.sort(
+        np.concatenate([np.zeros((2, 0), np.int64), *map(np.stack, (x[1:] for x in meeting))], axis=1), axis=0
+    )
     if not pairs.size:
         return Nesting(np.zeros(n, np.int64), np.zeros((0, 2), np.int64))
     one, other = pairs[:, np.lexsort(pairs[::-1])]
@@ -57,7 +59,7 @@ def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integ
     place[used] = np.arange(len(used))
     chosen = np.flatnonzero(place[surface] >= 0)
     sides = Sides(xyz, faces[chosen], place[surface[chosen]], len(used))
-    found = _Search(sides, *number.reshape(2, -1), low[:, used], high[:, used]).nesting(sign[used])
+    found = _Search(sides, number.reshape(2, -1), low[:, used], high[:, used]).nesting(sign[used])
     depth = np.zeros(n, np.int64)
     depth[used] = found.depth
     return Nesting(depth, used[found.crossing])
@@ -85,8 +87,9 @@ class _Search:
     one.
     """
 
-    def __init__(self, sides: Sides, one: Ints, other: Ints, low: Floats, high: Floats) -> None:
-        self.sides, self.pairs = sides, np.stack([one, other])
+    def __init__(self, sides: Sides, pairs: Ints, low: Floats, high: Floats) -> None:
+        self.sides, self.pairs = sides, pairs
+        one, other = pairs
         contacts = find_contacts(sides, one, other)
         self.crossing = np.zeros(len(one), bool)
         self.crossing[contacts.crossing] = True
@@ -99,8 +102,7 @@ class _Search:
         self.outside |= ~self.inner  # it reaches beyond the box
         if len(contacts.pair):
             found = samples(sides, contacts, _CONTACTS)
-            way = np.where(found.first, 0, 1)
-            self._look(found.points, found.pair, way)
+            self._look(found.points, found.pair, np.where(found.first, 0, 1))
         for tried in _TRIED:
             self._try(tried)
         self.crossing |= (self.inside & self.outside).any(axis=0)
@@ -119,17 +121,14 @@ class _Search:
         if not len(pair):
             return
         surface = self.pairs[way, pair]
-        first, count = self.sides.tree.members(surface)
-        taken = np.minimum(count, most)
+        first, members = self.sides.tree.members(surface)
+        taken = np.minimum(members, most)
         row = np.repeat(np.arange(len(pair)), taken)
         step = np.arange(len(row)) - np.repeat(np.cumsum(taken) - taken, taken)
-        face = self.sides.tree.order[first[row] + step * count[row] // taken[row]]
-        corners = self.sides.corners(face)
-        points = np.stack(corners[0])
-        self._look(points, pair[row], way[row])
+        corners = self.sides.corners(self.sides.tree.order[first[row] + step * members[row] // taken[row]])
+        self._look(corners[0], pair[row], way[row])
         if most > 1:
-            middle = np.stack([sum(axis) / 3 for axis in zip(*corners, strict=True)])
-            self._look(middle, pair[row], way[row])
+            self._look(corners.mean(axis=0), pair[row], way[row])
 
     def nesting(self, sign: Ints) -> Nesting:
         """Depths and crossing pairs; sign: of the volumes."""
@@ -149,4 +148,3 @@ class _Search:
         pairs = self.pairs[:, crossing].T
         depth[pairs.ravel()] = 0
         return Nesting(depth, pairs[np.lexsort(pairs.T[::-1])])
-

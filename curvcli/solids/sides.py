@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blocks import EPSILON, cross, dot
-from .boxes import BoxTree
 from ..slices import slices
+from .boxes import BoxTree
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -44,11 +44,6 @@ def size(vector: Vector) -> Floats:
     """|v|."""
     length: Floats = np.sqrt(dot(vector, vector))
     return length
-
-
-def absolute(vector: Vector) -> list[Floats]:
-    """The absolute values of the components."""
-    return [np.abs(x) for x in vector]
 
 
 def permanent(a: Vector, b: Vector) -> list[Floats]:
@@ -85,9 +80,9 @@ class Sides:
         turned: Floats = np.einsum("ij,jn->in", _AXES, points - self._base[:, None])
         return turned
 
-    def corners(self, face: Ints) -> list[list[Floats]]:
-        """The coordinates of the corners of some faces."""
-        return [[x.take(corner.take(face)) for x in self.xyz] for corner in self.faces]
+    def corners(self, face: Ints) -> Floats:
+        """(3, 3, n) the corners of some faces, and the coordinates of each."""
+        return np.array([[x.take(corner.take(face)) for x in self.xyz] for corner in self.faces])
 
     def of(self, points: Floats, group: Ints) -> NDArray[np.int8]:
         """(n,) the side of points (3, n) about one surface each: INSIDE where the winding number is not 0, else
@@ -107,13 +102,13 @@ class Sides:
 
     def _near(self, points: Floats, face: Ints) -> Mask:
         """Whether points are within the rounding of coordinates of a face each."""
-        d = [[x - p for x, p in zip(corner, points, strict=True)] for corner in self.corners(face)]
+        d = self.corners(face) - points
         distance = np.full(len(face), np.inf)
         for a, b in ((0, 1), (1, 2), (2, 0)):
-            along = [y - x for x, y in zip(d[a], d[b], strict=True)]
+            along = d[b] - d[a]
             square = dot(along, along)
             part = np.divide(-dot(d[a], along), square, where=square > 0, out=np.zeros_like(square)).clip(0, 1)
-            np.minimum(distance, size([x + part * e for x, e in zip(d[a], along, strict=True)]), out=distance)
+            np.minimum(distance, size(d[a] + part * along), out=distance)
         spokes = cross(d[0], d[1]), cross(d[1], d[2]), cross(d[2], d[0])
         normal = [x + y + z for x, y, z in zip(*spokes, strict=True)]
         over = np.logical_and.reduce([dot(normal, spoke) >= 0 for spoke in spokes])
@@ -126,16 +121,13 @@ class Sides:
     def _crossed(self, points: Floats, face: Ints) -> tuple[NDArray[np.int64], Mask]:
         """+1 where the ray from a point leaves through the face's outer side, -1 where it enters, 0 where it misses;
         and where that stays open because the ray meets an edge."""
-        a, b, c = ([x - p for x, p in zip(corner, points, strict=True)] for corner in self.corners(face))
-        sizes = [absolute(x) for x in (a, b, c)]
+        a, b, c = d = self.corners(face) - points
+        sizes = np.abs(d)
         normals = cross(b, c), cross(c, a), cross(a, b)
         terms = permanent(sizes[1], sizes[2]), permanent(sizes[2], sizes[0]), permanent(sizes[0], sizes[1])
         ray = _AXES[2]
         signs = np.stack(
-            [
-                certain_sign(dot(ray, n), CERTAIN * dot(np.abs(ray), t))  # type: ignore[arg-type]
-                for n, t in zip(normals, terms, strict=True)
-            ]
+            [certain_sign(dot(ray, n), CERTAIN * dot(np.abs(ray), t)) for n, t in zip(normals, terms, strict=True)]
         )
         least, most = signs.min(axis=0), signs.max(axis=0)
         through = np.abs(signs.sum(axis=0)) == 3
@@ -170,6 +162,4 @@ def _exactly_crossed(point: list[float], corners: list[list[float]]) -> int | No
 
 
 def _determinant(a: list[Fraction], b: list[Fraction], c: list[Fraction]) -> Fraction:
-    return (
-        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
-    )
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])

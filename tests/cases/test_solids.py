@@ -1,0 +1,35 @@
+"""Meshes of shared/cases with cavities, and with bodies that cross or touch, by the command line."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.cases.test_gate import case
+from tests.cli.program import curvcli
+from tests.shared import needs_shared
+
+pytestmark = needs_shared
+
+
+@pytest.mark.parametrize(
+    ("name", "as_wound", "outward", "message"),
+    [
+        ("hollow_right.stl", 936, 936, ""),
+        ("hollow_wrong.stl", 1064, 936, "1 closed patch is inside out (face 12): a cavity of positive volume"),
+        ("two_second_inverted.stl", 936, 1064, "1 closed patch is inside out (face 12): a body of negative volume"),
+        ("overlapping_cubes.stl", 2, 2, "2 closed patches cross or coincide (face 0 and face 12)"),
+        ("bed_100_cubes.stl", 51200, 51200, ""),
+    ],
+)
+def test_outward(name: str, as_wound: float, outward: float, message: str) -> None:
+    ended = curvcli("check", case(name), "--require", "closed,outward")
+    assert ended.code == bool(message)
+    assert (f"outward fails: {message}" in ended.out) == bool(message)
+    for orient, volume in (("file", as_wound), ("outward", outward)):
+        assert float(curvcli("analyze", case(name), "--orient", orient, "--get", "totals.volume").out) == volume
+
+
+def test_the_warning_says_what_is_inside_out() -> None:
+    for name, word in (("hollow_wrong.stl", "cavity"), ("two_second_inverted.stl", "body")):
+        assert word in curvcli("check", case(name)).out
+    assert "cross" in curvcli("check", case("overlapping_cubes.stl")).out
