@@ -8,6 +8,7 @@ from typing import IO, Any, cast, get_type_hints
 
 import polars as pl
 
+from ..forks import require_threads
 from ..memory import require_polars
 from ..output.atomic import Outputs
 from ..report.model import Topology
@@ -20,6 +21,7 @@ def write_summary(folder: str, rows: Sequence[Row]) -> None:
     Columns: path, status, exit_code, error, then topology, totals and checks under their names in the report.
     Errors: OutputError for a folder that cannot be written.
     """
+    require_threads()
     require_polars(1024 * len(rows))
     table = frame(rows)
     paths = [os.path.join(folder, name) for name in (CSV, PARQUET)]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..forks import require_threads
 from ..memory import require_polars
 from .content import open_regular, read_limited
 
@@ -30,6 +31,7 @@ def read_stored_table(path: str, *, max_bytes: int | None = None) -> dict[str, N
 
 
 def _columns(data: bytes, suffix: str) -> dict[str, NDArray[Any]]:
+    require_threads()
     require_polars(len(data))
     import polars as pl
     from polars.exceptions import PolarsError

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..forks import threads_lost
 from ..memory import require_polars
 from ..slices import slices
 
@@ -176,7 +177,7 @@ def read_columns(
     blanks = columns + skip - 1
     if rows == 0 or _occurrences(text, BLANK) != rows * blanks or data.count(b" ", 0, data.index(b"\n")) != blanks:
         return None
-    if len(data) <= SMALL:
+    if len(data) <= SMALL or threads_lost():
         numbers, known = read_tokens(data, dtype)
         known = known.reshape(rows, -1)[:, skip:]
         return list(np.ascontiguousarray(numbers.reshape(rows, -1)[:, skip:].T)) if known.all() else None
@@ -231,10 +232,30 @@ def read_tokens(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generi
     import polars as pl
 
     kind = pl.Float64 if dtype is np.float64 else pl.Int32
-    separator = " " if dtype is np.float64 else "/"
-    column = _read_csv(data.translate(_TOKEN_PER_LINE), {"number": kind}, separator, range(1))["number"]
+    lines = data.translate(_TOKEN_PER_LINE)
+    if threads_lost():
+        return _cast(lines, dtype)
+    column = _read_csv(lines, {"number": kind}, " " if dtype is np.float64 else "/", range(1))["number"]
     known = np.ones(len(column), np.bool_) if column.null_count() == 0 else column.is_not_null().to_numpy()
     return column.fill_null(0).to_numpy(), known
+
+
+_BEHIND_SLASH = re.compile(rb"/[^\n]*")
+
+
+def _cast(lines: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
+    """The same without the threads of polars: what casts a single column needs none."""
+    import polars as pl
+
+    words = (lines if dtype is np.float64 else _BEHIND_SLASH.sub(b"", lines))[:-1].decode("latin-1").split("\n")
+    column = pl.Series(words, dtype=pl.String).cast(pl.Float64 if dtype is np.float64 else pl.Int32, strict=False)
+    numbers = column.to_numpy()
+    known = np.ones(len(words), np.bool_)
+    if column.null_count():
+        undefined = np.flatnonzero(np.isnan(numbers))
+        known[undefined] = [words[k].lower().lstrip("+-") == "nan" for k in undefined.tolist()]
+        numbers = np.where(known, numbers, 0).astype(dtype)
+    return numbers, known
 
 
 _NUMBER = re.compile(rb"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?:nan|inf|infinity))", re.IGNORECASE)

@@ -27,14 +27,14 @@ def write_obj(
     for comment in parts.get("comments", ()):
         stream.write(f"# {' '.join(comment.split())}\n".encode())
     for rows in slices(len(points), ROWS_AT_A_TIME):
-        columns: dict[str, pl.Series | pl.Expr] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}
+        columns: dict[str, pl.Series | str] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}
         if colors is not None:
             columns |= {name: numbers(_SHARES[colors[rows, k]]) for k, name in enumerate("rgb")}
-        write_lines(stream, {"v": pl.lit("v"), **columns})
+        write_lines(stream, {"v": "v", **columns})
     if polygons is None:
         for rows in slices(len(faces), ROWS_AT_A_TIME):
             part = faces[rows].astype(np.int64) + 1
-            write_lines(stream, {"f": pl.lit("f"), **{name: numbers(part[:, k]) for k, name in enumerate("abc")}})
+            write_lines(stream, {"f": "f", **{name: numbers(part[:, k]) for k, name in enumerate("abc")}})
     else:
         _write_polygons(stream, *polygons)
 

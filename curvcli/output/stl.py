@@ -53,11 +53,11 @@ def write_stl_text(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray
     stream.write(b"solid curvcli\n")
     for rows in slices(len(faces), ROWS_AT_A_TIME):
         corners = points[faces[rows]]
-        columns: dict[str, pl.Series | pl.Expr] = {"facet": pl.lit("facet normal")}
+        columns: dict[str, pl.Series | str] = {"facet": "facet normal"}
         columns |= {f"n{k}": numbers(column) for k, column in enumerate(_normals(corners).T)}
-        columns["loop"] = pl.lit("\nouter loop")
+        columns["loop"] = "\nouter loop"
         for corner in range(3):
-            columns[f"vertex{corner}"] = pl.lit("\nvertex")
+            columns[f"vertex{corner}"] = "\nvertex"
             columns |= {f"{corner}{k}": numbers(corners[:, corner, k]) for k in range(3)}
         text = lines(columns, end="\nendloop\nendfacet\n")
         stream.write(without(text, b" ", b"\n").data)

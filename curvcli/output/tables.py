@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 from polars.io.plugins import register_io_source
 
 from ..errors import OutputError, UsageError
+from ..forks import require_threads, threads_lost
 from ..loading.model import Labels
 from ..tables import ROWS_IN_A_FRAME
+from .text import joined
 
 Column: TypeAlias = NDArray[Any] | Labels
 
@@ -78,13 +80,35 @@ def _write_text(
     for number, frame in enumerate(_frames(columns)):
         if stop is not None and stop.is_set():
             raise InterruptedError("told to stop")
+        if threads_lost():
+            to.write(_text(frame, separator, digits, header=not number))
+            continue
         text = frame if digits is None else frame.with_columns(_rounded(frame, digits))
         text.write_csv(
             cast("IO[bytes]", to), separator=separator, include_header=not number, batch_size=_ROWS_AT_A_TIME
         )
 
 
+def _text(frame: pl.DataFrame, separator: str, digits: int | None, header: bool) -> bytes:
+    """What polars writes of a frame, without its threads."""
+    special = re.compile(f'["\r\n{separator}]|^$')
+
+    def quoted(word: str | None) -> str | None:
+        return word if word is None or not special.search(word) else '"' + word.replace('"', '""') + '"'
+
+    columns = dict(zip(frame.columns, frame.iter_columns(), strict=True))
+    for name, series in columns.items():
+        if series.dtype in (pl.String, pl.Enum):
+            columns[name] = pl.Series([quoted(word) for word in series.to_list()], dtype=pl.String)
+        elif series.dtype == pl.Float64 and digits is not None:
+            near = [x if x is None else float(f"{x:.{digits - 1}e}") for x in series.to_list()]
+            columns[name] = pl.Series([x if y is None or np.isinf(y) else y for x, y in zip(series, near, strict=True)])
+    first = separator.join(str(quoted(name)) for name in columns) + "\n" if header else ""
+    return first.encode() + joined(columns, separator, "\n")
+
+
 def _write_parquet(relay: _Relay, columns: Mapping[str, Column]) -> None:
+    require_threads()
     frames = _frames(columns)
     first = next(frames)
     if len(first) == _length(columns):
