@@ -122,9 +122,12 @@ def analysed_side(
 
 def _check_suffix(path: str) -> None:
     """Errors: InputError for a suffix that neither meshes nor what else is compared have, with all of them."""
+    from ..loading.elsewhere import is_url
     from ..loading.recognise import format_of_name
     from ..loading.stored import SUFFIXES
 
+    if is_url(path) or os.path.isdir(path):
+        return  # reading it says what does
     try:
         format_of_name(path)
     except InputError as error:

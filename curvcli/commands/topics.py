@@ -39,7 +39,7 @@ def _exit_codes() -> str:
 
 
 def _formats() -> str:
-    from ..loading.recognise import FORMATS as READ
+    from ..loading.elsewhere import FORMATS as READ
     from ..output.formats import FORMATS as WRITTEN
 
     inputs = [(f".{suffix}", f"{suffix.upper()}, also .{suffix}.gz") for suffix in READ]

@@ -14,6 +14,7 @@ from typing import Any, BinaryIO, NamedTuple
 
 from ..errors import InputError
 from ..sinks import wait_for
+from .elsewhere import of_folder, of_missing
 
 _CHUNK = 1 << 24
 _FREE_INFLATION = 1 << 26
@@ -27,16 +28,19 @@ def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) ->
     """
     flags = os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
     try:
-        if not stat.S_ISREG(os.stat(path).st_mode):
-            raise _irregular(os.stat(path).st_mode)
+        if not stat.S_ISREG(mode := os.stat(path).st_mode):
+            raise _irregular(mode, path)
         descriptor = os.open(path, flags)
     except (OSError, ValueError) as error:
-        raise unreadable(error) from None
+        refused = unreadable(error)
+        if getattr(error, "errno", None) in (errno.ENOENT, errno.ENOTDIR):
+            refused.hint = of_missing(os.fsdecode(path))
+        raise refused from None
     file = io.FileIO(descriptor)
     status = os.fstat(descriptor)
     if not stat.S_ISREG(status.st_mode):
         file.close()
-        raise _irregular(status.st_mode)
+        raise _irregular(status.st_mode, path)
     if max_bytes is not None and status.st_size > max_bytes:
         file.close()
         raise _too_large(f"{status.st_size} bytes", max_bytes)
@@ -190,10 +194,11 @@ def _reason(error: OSError | ValueError) -> str:
             return f"the file cannot be read ({os.strerror(error.errno or 0)})"  # type: ignore[union-attr]
 
 
-def _irregular(mode: int) -> InputError:
+def _irregular(mode: int, path: str | bytes | os.PathLike[Any]) -> InputError:
     kinds = ((stat.S_ISDIR, "directory"), (stat.S_ISFIFO, "named pipe"), (stat.S_ISSOCK, "socket"))
     kind = next((name for test, name in kinds if test(mode)), "device")
-    return InputError(f"a {kind} found, a regular file expected", hint="`-` reads a stream from standard input")
+    hint = of_folder(os.fsdecode(path)) if kind == "directory" else "`-` reads a stream from standard input"
+    return InputError(f"a {kind} found, a regular file expected", hint=hint)
 
 
 def _too_large(found: str, limit: int) -> InputError:

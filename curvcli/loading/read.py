@@ -16,10 +16,11 @@ from ..errors import InputError, UsageError
 from ..memory import require_polars
 from ..printable import shown
 from .content import inflate, open_regular, read_limited
+from .elsewhere import FORMATS
 from .limits import check_faces, parse_weld
 from .model import MeshFile
 from .pieces import Pieces
-from .recognise import FORMATS, format_of_name, recognise
+from .recognise import format_of_name, recognise
 from .text import SMALL
 
 _PREFIX = "curvcli-"

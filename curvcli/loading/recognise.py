@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import re
 
 from ..errors import InputError, Notice
+from .elsewhere import FORMATS, known_suffix, of_suffix, suffix_of
 from .pieces import Pieces
 from .ply_header import PLY_SIGN
 from .stl import ASCII_SIGN, is_binary_stl
-
-FORMATS = ("obj", "ply", "stl")
-"""The promised formats, which are also the suffixes; each may be followed by .gz."""
 
 _ARCHIVES = {
     b"PK\x03\x04": "a ZIP archive",
@@ -41,16 +38,12 @@ def format_of_name(path: str) -> str:
 
     Errors: InputError for a suffix that is not promised.
     """
-    name = os.path.basename(path).lower().removesuffix(".gz")
-    suffix = name.rpartition(".")[2] if "." in name else ""
-    if suffix in FORMATS:
-        return suffix
-    raise InputError(
-        f"suffix `.{suffix}` found, {', '.join('.' + name for name in FORMATS)} expected (each also with .gz)"
-        if suffix
-        else f"no suffix found, {', '.join('.' + name for name in FORMATS)} expected (each also with .gz)",
-        hint=f"--input-format {'|'.join(FORMATS)} reads it as such",
-    )
+    if known := known_suffix(path):
+        return known
+    suffix = suffix_of(path)
+    expected = f"{', '.join('.' + name for name in FORMATS)} expected (each also with .gz)"
+    found = f"suffix `.{suffix}` found" if suffix else "no suffix found"
+    raise InputError(f"{found}, {expected}", hint=of_suffix(path))
 
 
 def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple[str, tuple[Notice, ...]]:

@@ -10,6 +10,7 @@ from ..arrays import freeze
 from ..errors import InputError, UsageError
 from ..surface import Surface
 from .model import MeshFile
+from .objects import is_stream, refusal
 
 Orient = Literal["file", "outward"]
 
@@ -29,10 +30,12 @@ def load(
     weld: `auto` (STL by exact position, OBJ and PLY not at all), `none`, `exact`, or a tolerance relative to the
     diagonal of the bounding box. orient: `outward` turns closed patches that are inside out. normals: `file` also
     reads the normals of an OBJ file; those of a PLY file are among its properties anyhow.
-    Errors: InputError, one line with file, place, expectation and way out.
+    Errors: InputError, one line with file, place, expectation and way out; TypeError for no path and no stream.
     """
     from .read import read_and_make
 
+    if not (isinstance(source, str | bytes | os.PathLike) or is_stream(source)):
+        raise refusal(source, "a path or a binary stream", "curvcli.analyze accepts")
     importing = "trimesh" not in sys.modules
 
     def surface(file: MeshFile) -> Surface:
@@ -89,14 +92,14 @@ def as_surface(
             notices=given.notices,
         )
     orient = orient or "file"
-    if isinstance(given, str | os.PathLike) or hasattr(given, "read"):
+    if isinstance(given, str | os.PathLike) or is_stream(given):
         return load(given, orient=orient, weld=weld, normals=normals)
-    if hasattr(given, "vertices") and hasattr(given, "faces"):
+    if hasattr(given, "vertices") and hasattr(given, "faces") and not isinstance(given, type):
         given = given.vertices, given.faces
-    if isinstance(given, tuple | list) and len(given) == 2:
+    if isinstance(given, tuple | list) and len(given) == 2 and not any(isinstance(part, str) for part in given):
         _check_weld(weld, "none")
         return Surface(*given, orient=orient)
-    raise TypeError(f"expected a Surface, a path, a trimesh.Trimesh or (points, faces), not {type(given).__name__}")
+    raise refusal(given)
 
 
 def _check_weld(weld: str | float, merged: str) -> None:

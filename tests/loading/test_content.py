@@ -42,7 +42,7 @@ def test_a_gzip_bomb_is_refused_early(tmp_path: Path) -> None:
 def test_what_is_no_regular_file(tmp_path: Path) -> None:
     folder = tmp_path / "folder.obj"
     folder.mkdir()
-    assert refused(folder).startswith(f"{folder}: a directory found, a regular file expected; `-`")
+    assert refused(folder).startswith(f"{folder}: a directory found, a regular file expected; ")
     assert refused(tmp_path / "none.obj") == f"{tmp_path / 'none.obj'}: no such file"
     assert refused(tmp_path / "none" / "none.obj").endswith("no such file")
     assert "not a file name" in refused("a\0b.obj")

@@ -1,0 +1,129 @@
+"""Ways out for what curvcli does not read: other formats, folders, URLs, patterns."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+
+FORMATS = ("obj", "ply", "stl")
+"""The promised formats, which are also the suffixes; each may be followed by .gz."""
+
+_AS_SUCH = f"--input-format {'|'.join(FORMATS)} reads a file of such a format under another name"
+_MESHIO = "`meshio convert {file} OUT.ply` converts it (`pip install meshio`)"
+_VTK = (
+    """`python -c "import pyvista; pyvista.read('{plain}').extract_surface().save('OUT.ply')"` converts it """
+    "(`pip install 'curvcli[pictures]'`)"
+)
+_TRIMESH = """`python -c "import trimesh; trimesh.load_mesh('{plain}').export('OUT.ply')"` converts it"""
+_NIBABEL = (
+    """`python -c "import nibabel, trimesh; trimesh.Trimesh(*nibabel.{reader}, process=False).export('OUT.ply')"` """
+    "converts it (`pip install nibabel`)"
+)
+_GIFTI = _NIBABEL.replace("{reader}", "load('{plain}').agg_data()")
+_FREESURFER = _NIBABEL.replace("{reader}", "freesurfer.read_geometry('{plain}')")
+_CAD = "export it as STL from a CAD program"
+_GMSH = f"{_CAD}, or by `gmsh {{file}} -2 -o OUT.stl`"
+_SCENE = "export it as PLY, OBJ or STL from Blender"
+_POINTS = "points have no faces: reconstruct a surface first, for example with MeshLab"
+_VOLUME = "a volume has no faces: extract a surface first, for example with skimage.measure.marching_cubes"
+_UNPACK = "unpack it first"
+_TABLE = "`curvcli compare` reads reports and tables"
+
+# By suffix; each command is one that was run.
+_WAYS_OUT = {
+    **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "msh", "nas", "tec", "vol"), _MESHIO),
+    **dict.fromkeys(("vtk", "vtp", "vtu"), _VTK),
+    **dict.fromkeys(("glb", "gltf", "off"), _TRIMESH),
+    "gii": _GIFTI,
+    **dict.fromkeys(("inflated", "orig", "pial", "smoothwm", "sphere", "white"), _FREESURFER),
+    **dict.fromkeys(("step", "stp", "iges", "igs", "brep"), _GMSH),
+    **dict.fromkeys(
+        ("3dm", "3mf", "amf", "catpart", "dwg", "dxf", "f3d", "fcstd", "ipt", "jt", "prt", "scad", "sldprt", "x_t"),
+        _CAD,
+    ),
+    **dict.fromkeys(("3ds", "abc", "blend", "c4d", "dae", "fbx", "ma", "max", "mb", "usd", "usda", "usdz"), _SCENE),
+    "fe": "the command file stl.cmd of the Surface Evolver writes it as STL",
+    **dict.fromkeys(("asc", "e57", "las", "laz", "pcd", "pts", "xyz"), _POINTS),
+    **dict.fromkeys(("dcm", "mha", "mrc", "nhdr", "nii", "nrrd", "tif", "tiff"), _VOLUME),
+    **dict.fromkeys(("7z", "bz2", "tar", "tgz", "xz", "zip", "zst"), _UNPACK),
+    **dict.fromkeys(("csv", "json", "parquet", "tsv"), _TABLE),
+}
+_PLAIN = re.compile(r"[\w./ +-]+", re.ASCII)
+_URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
+_MAGIC = re.compile(r"[*?[]")
+# Entries of a folder that are looked at for a suffix.
+_LOOKED_AT = 1000
+
+
+def known_suffix(path: str) -> str | None:
+    """The promised format that the suffix names, in any case and before .gz; None if it names none."""
+    suffix = suffix_of(path)
+    return suffix if suffix in FORMATS else None
+
+
+def suffix_of(path: str) -> str:
+    """The suffix in lower case, without the dot and without .gz; empty if there is none."""
+    name = os.path.basename(path).lower().removesuffix(".gz")
+    return name.rpartition(".")[2] if "." in name else ""
+
+
+def of_suffix(path: str) -> str:
+    """What reads or converts a file with this suffix."""
+    words = _WAYS_OUT.get(suffix_of(path))
+    return _AS_SUCH if words is None else words.format(file=_quoted(path), plain=_inside_quotes(path))
+
+
+def of_folder(path: str) -> str:
+    """What reads the meshes in a folder."""
+    suffix, inside = _suffix_inside(path), path.rstrip(os.sep) or os.sep
+    pattern = os.path.join(inside, f"*.{suffix}")
+    quoted = _quoted(inside).rstrip(os.sep) + f"/*.{suffix}"
+    tree = shlex.quote(os.path.join(inside, "**", f"*.{suffix}")) if pattern.isprintable() else f"'DIR/**/*.{suffix}'"
+    return f"{quoted} names the meshes in it, and `curvcli batch {tree} -o OUT` reads those of all its folders"
+
+
+def of_missing(path: str) -> str | None:
+    """What reads a URL or a pattern, where no file has that name; None for other names."""
+    if _URL.match(path):
+        if path.lower().startswith("file://"):
+            return f"`curvcli batch {_quoted(path, 'URL')} -o OUT` reads a URL, other commands a path"
+        return (
+            f"`curvcli batch {_quoted(path, 'URL')} -o OUT` reads a URL (`pip install 'curvcli[remote]'`), "
+            "other commands a file that was downloaded"
+        )
+    if _MAGIC.search(path):
+        batch = f"`curvcli batch {_quoted(path, 'PATTERN')} -o OUT`"
+        return f"{batch} expands patterns; the shell expands those without quotes"
+    return None
+
+
+def is_url(path: str) -> bool:
+    """Whether a name is a URL."""
+    return bool(_URL.match(path))
+
+
+def _suffix_inside(path: str) -> str:
+    """The suffix of the first mesh in a folder as it is written there, `ply` if there is none."""
+    try:
+        with os.scandir(path) as entries:
+            for entry, _ in zip(entries, range(_LOOKED_AT), strict=False):
+                if known_suffix(entry.name):
+                    name = entry.name
+                    stem = name[: -len(".gz")] if name.lower().endswith(".gz") else name
+                    return stem.rpartition(".")[2] + name[len(stem) :]
+    except OSError:
+        pass
+    return "ply"
+
+
+def _quoted(path: str, placeholder: str = "") -> str:
+    """The path for a shell, or a placeholder for one that cannot be printed."""
+    if path.isprintable():
+        return shlex.quote(path)
+    return placeholder or (f"IN.{suffix_of(path)}" if suffix_of(path).isprintable() else "IN")
+
+
+def _inside_quotes(path: str) -> str:
+    """The path between quotes of Python and of a shell, or a placeholder for one that would end them."""
+    return path if _PLAIN.fullmatch(path) else f"IN.{suffix_of(path)}"

@@ -1,0 +1,54 @@
+"""Objects that stand for a mesh in Python: streams, and what to pass instead of others."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+ACCEPTED = "a Surface, a path, a binary stream, a trimesh.Trimesh or (points, faces)"
+
+
+def is_stream(given: Any) -> bool:
+    """Whether an object is a stream of bytes: a file that is open, not a class or a mesh with a method `read`."""
+    return callable(getattr(given, "read", None)) and callable(getattr(given, "seekable", None)) and not _is_text(given)
+
+
+def refusal(given: Any, accepted: str = ACCEPTED, passing: str = "pass") -> TypeError:
+    """The error for an object that stands for no mesh: its type, what is accepted, and what to pass instead.
+
+    passing: the words before an expression for a mesh.
+    """
+    kind = type(given)
+    if isinstance(given, type):
+        name = f"the class {given.__name__}"
+    else:
+        name = kind.__name__ if kind.__module__ == "builtins" else f"{kind.__module__.split('.')[0]}.{kind.__name__}"
+    hint = _instead(given, passing)
+    return TypeError(f"expected {accepted}, not {name}{f'; {hint}' if hint else ''}")
+
+
+def _is_text(given: Any) -> bool:
+    return isinstance(given, io.TextIOBase) or isinstance(getattr(given, "encoding", None), str)
+
+
+def _instead(given: Any, passing: str) -> str:
+    """What to pass instead of an object of a known kind."""
+    if isinstance(given, type):
+        return "pass an object of it"
+    if _is_text(given):
+        return "open the file with mode 'rb'"
+    if isinstance(given, bytes | bytearray | memoryview):
+        return "pass io.BytesIO(data)"
+    kinds = (
+        (("points", "regular_faces"), "(mesh.points, mesh.regular_faces) of mesh.triangulate()"),
+        (("points", "extract_surface"), "(mesh.points, mesh.regular_faces) of mesh.extract_surface().triangulate()"),
+        (("points", "cells_dict"), "(mesh.points, mesh.cells_dict['triangle'])"),
+        (("combine", "keys"), "(mesh.points, mesh.regular_faces) of blocks.combine().extract_surface().triangulate()"),
+        (("vertices", "triangles"), "(numpy.asarray(mesh.vertices), numpy.asarray(mesh.triangles))"),
+        (("geometry", "to_mesh"), "scene.to_mesh()"),
+        (("agg_data", "darrays"), "image.agg_data()"),
+    )
+    for names, instead in kinds:
+        if all(hasattr(given, name) for name in names):
+            return f"{passing} {instead}"
+    return ""
