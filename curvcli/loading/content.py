@@ -21,6 +21,10 @@ _FREE_INFLATION = 1 << 26
 _INFLATION = 100
 
 
+class DamagedError(InputError):
+    """Compressed data that cannot be inflated."""
+
+
 def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) -> io.FileIO:
     """The file, opened for reading without a buffer, if it is a regular one.
 
@@ -147,8 +151,8 @@ def _late(file: BinaryIO | io.FileIO, most: int) -> bytes:
 def inflate(data: bytes, max_bytes: int | None) -> bytes:
     """The content of gzip data.
 
-    Errors: InputError if they are damaged, or inflate to more than max_bytes (without it: 64 MiB and 100 times the
-    compressed size, more than any mesh needs).
+    Errors: DamagedError if they are damaged, InputError if they inflate to more than max_bytes (without it: 64 MiB and
+    100 times the compressed size, more than any mesh needs).
     """
     limit = max_bytes if max_bytes is not None else _FREE_INFLATION + _INFLATION * len(data)
     parts: list[bytes] = []
@@ -161,7 +165,7 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
                 if total > limit:
                     raise _too_large(f"gzip data that inflate to more than {limit} bytes", limit)
     except (OSError, EOFError, zlib.error) as error:
-        raise InputError(f"damaged gzip data found ({error})") from None
+        raise DamagedError(f"damaged gzip data found ({error})") from None
     return b"".join(parts)
 
 

@@ -12,11 +12,9 @@ from ..plurals import agree
 from .limits import check_faces
 from .model import MeshFile
 from .pieces import Pieces
-from .ply_header import HEADER_END, TOO_SMALL, Element, Header, parse_header
+from .ply_header import CORNERS, HEADER_END, TOO_SMALL, Element, Header, parse_header
 from .ply_rows import Columns, read_binary_rows
 from .ply_text import read_text_rows
-
-_CORNERS = ("vertex_indices", "vertex_index")
 
 
 def parse_ply(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
@@ -48,7 +46,7 @@ def parse_ply(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
 
 def _corner_property(element: Element) -> str:
     for p in element.properties:
-        if p.name in _CORNERS and p.length is not None:
+        if p.name in CORNERS and p.length is not None:
             if p.type.kind == "f":
                 raise InputError(f"`{p.name}` holds fractions, an integer type expected", place="header")
             return p.name
@@ -79,11 +77,13 @@ def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: li
     if "face" in elements and elements["face"].count:
         faces = content["face"]
         sizes, indices = faces.lists[_corner_property(elements["face"])]
+        _refuse_shifted(sizes, elements, "face", notices)
         corners = _checked(indices, sizes, "face", xyz.shape[1])
         properties = faces.scalars
         corners, sizes, properties = _without_short(corners, sizes, properties, notices)
     if "tristrips" in elements and elements["tristrips"].count:
         lengths, indices = content["tristrips"].lists[_corner_property(elements["tristrips"])]
+        _refuse_shifted(lengths, elements, "tristrips", notices)
         _checked(indices, lengths, "tristrips", xyz.shape[1], lowest=-1)
         strips = strip_triangles(indices, lengths)
         corners, properties = np.concatenate((corners, strips.reshape(-1))), {}
@@ -99,6 +99,35 @@ def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: li
         polygon_properties=properties,
         notices=tuple(notices),
     )
+
+
+def _refuse_shifted(sizes: NDArray[np.int64], elements: dict[str, Element], name: str, notices: list[Notice]) -> None:
+    """Refuses lists that are read from the wrong place, because the count of an element before them is wrong.
+
+    A count that is too large ends inside a row of lists, whose last byte is then the length of an empty list; one that
+    is too small leaves a row of numbers before the lists, and a row of them after the end.
+    """
+    empty = np.flatnonzero(_once(sizes) == 0)
+    least = 3 if name == "face" else 1
+    odd = bool(len(sizes)) and (min(sizes[0], sizes[-1]) < least or _has_extra_values(notices, name))
+    remains = any(notice.code == "trailing_data" for notice in notices)
+    if not len(empty) and not (odd and remains):
+        return
+    hint = (
+        f"`element vertex {elements['vertex'].count}` in the header is too small or too large, or the file is damaged"
+    )
+    if len(empty):
+        problem = "list length 0 found, 3 or more expected"
+        raise InputError(problem, place=f"{name} {int(empty[0])}", hint=hint)
+    row = 0 if sizes[0] < least or sizes[-1] >= least else len(sizes) - 1
+    raise InputError(
+        f"list length {int(sizes[row])} found, and data after the last row", place=f"{name} {row}", hint=hint
+    )
+
+
+def _has_extra_values(notices: list[Notice], name: str) -> bool:
+    """Whether the first row of an element has more values than announced."""
+    return any(n.code == "extra_values" and n.examples[:1] == (0,) and f"`{name}`" in n.message for n in notices)
 
 
 def _checked(

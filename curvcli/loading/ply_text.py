@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
 from ..plurals import agree, number_of
-from .ply_header import TOO_SMALL, Element, Header, Property
+from .ply_header import CORNERS, TOO_SMALL, Element, Header, Property
 from .ply_rows import Columns, empty_columns
 from .text import (
     NEWLINE,
@@ -150,11 +150,27 @@ def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
         at = at + 1 + count
     extra = np.flatnonzero(at < ends)
     if len(extra):
+        _refuse_wrong_lengths(rows, read, extra)
         rest = f"of element `{rows.element.name}` with more values than announced, which are ignored"
         hint = f"the header lacks a property, or the file is damaged; the first is {rows.place(int(extra[0]))}"
         message = f"{agree(len(extra), '[row|rows]')} {rest}"
         notices.append(Notice("extra_values", len(extra), message, hint, tuple(extra[:5].tolist())))
     return read
+
+
+def _refuse_wrong_lengths(rows: _Rows, read: Columns, extra: NDArray[np.intp]) -> None:
+    """Refuses a face of fewer than 3 corners in a row with more values: the length of its list is wrong."""
+    if rows.element.name != "face":
+        return
+    for p in rows.element.properties:
+        if p.name in CORNERS and p.length is not None:
+            lengths = read.lists[p.name][0]
+            wrong = extra[lengths[extra] < 3]
+            if len(wrong):
+                row = int(wrong[0])
+                problem = f"list length {int(lengths[row])} found in a row with more values"
+                hint = "a list length, or the count of an element in the header, is wrong"
+                raise InputError(problem, place=rows.place(row), hint=hint)
 
 
 def _require(rows: _Rows, enough: NDArray[np.bool_]) -> None:

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO, Generic, TypeVar
 from ..errors import InputError, UsageError
 from ..memory import require_polars
 from ..printable import shown
-from .content import inflate, open_regular, read_limited
+from .content import DamagedError, inflate, open_regular, read_limited
 from .elsewhere import FORMATS
 from .limits import check_faces, parse_weld
 from .model import MeshFile
@@ -24,6 +24,7 @@ from .recognise import format_of_name, recognise
 from .text import SMALL
 
 _PREFIX = "curvcli-"
+_GZIP = b"\x1f\x8b"
 
 Made = TypeVar("Made")
 
@@ -97,8 +98,8 @@ def _read(
             importing.append(pool.submit(_import_polars, hashed.size))
             hashed.whole()
         pieces = hashed
-        if hashed.ahead()[:2] == b"\x1f\x8b":
-            pieces = stack.enter_context(Pieces(inflate(hashed.rest(), max_bytes), hashed=False))
+        if hashed.ahead()[:2] == _GZIP:
+            pieces = stack.enter_context(Pieces(_inflated(hashed.rest(), max_bytes), hashed=False))
         if not pieces.size:
             raise InputError("no data found, a mesh expected")
         kind, notices = recognise(pieces, wanted, by_name=input_format is None)
@@ -119,6 +120,21 @@ def _read(
         made = pool.submit(content)  # made while trimesh is imported
         wait(importing)
         return _through_trimesh(made, kind)
+
+
+def _inflated(data: bytes, max_bytes: int | None) -> bytes:
+    """The content of gzip data, or the data themselves where they are binary STL whose header begins as gzip does.
+
+    Errors: InputError for gzip data that are damaged or inflate to too much.
+    """
+    from .stl import has_room
+
+    try:
+        return inflate(data, max_bytes)
+    except DamagedError:
+        if has_room(data[: Pieces.window], len(data)):
+            return data
+        raise
 
 
 def _import_polars(data: int) -> None:

@@ -8,7 +8,7 @@ from ..errors import InputError, Notice
 from .elsewhere import FORMATS, known_suffix, of_suffix, suffix_of
 from .pieces import Pieces
 from .ply_header import PLY_SIGN
-from .stl import ASCII_SIGN, is_binary_stl
+from .stl import ASCII_SIGN, has_room, is_binary_stl
 
 _ARCHIVES = {
     b"PK\x03\x04": "a ZIP archive",
@@ -53,7 +53,8 @@ def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple
     Errors: InputError for content that cannot be recognised.
     """
     start = pieces.ahead()
-    if not is_binary_stl(start, pieces.size):  # its first 80 bytes are free
+    # The first 80 bytes of binary STL are free.
+    if not (is_binary_stl(start, pieces.size) or (wanted == "stl" and has_room(start, pieces.size))):
         _refuse_what_is_known(start)
     if wanted in ("ply", "stl") and _bears_sign(pieces, wanted):
         return wanted, ()
@@ -90,7 +91,9 @@ def _bears_sign(pieces: Pieces, kind: str) -> bool:
     if kind == "ply":
         return bool(PLY_SIGN.match(start))
     if kind == "stl":
-        return is_binary_stl(start, pieces.size) or (bool(ASCII_SIGN.match(start)) and b"facet" in start.lower())
+        if is_binary_stl(start, pieces.size):
+            return True
+        return bool(ASCII_SIGN.match(start)) and (b"facet" in start.lower() or has_room(start, pieces.size))
     if not _V_LINE.search(start):
         return False
     data = pieces.whole()

@@ -32,7 +32,8 @@ def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None
     """
     xyz: NDArray[np.float32] | NDArray[np.float64]
     hint = "a surface needs at least one facet"
-    if not is_binary_stl(pieces.ahead(), pieces.size) and ASCII_SIGN.match(pieces.whole()):
+    # No text announces fewer facets than it has room for: the letters of its counter are large numbers.
+    if not has_room(pieces.ahead(), pieces.size) and ASCII_SIGN.match(pieces.whole()):
         data = pieces.rest()
         if b"\0" in data:
             hint = (
@@ -58,6 +59,12 @@ def is_binary_stl(start: bytes, size: int) -> bool:
     That decides, whatever the header says; other content may be cut off, or text (`ASCII_SIGN`).
     """
     return size >= _HEADER and _announced_size(start) == size
+
+
+def has_room(start: bytes, size: int) -> bool:
+    """Whether content of this size, with this start, has room for the facets that the counter of binary STL announces,
+    at least one: binary STL, possibly with bytes after the last facet."""
+    return size >= _HEADER and _HEADER < _announced_size(start) <= size
 
 
 def _announced_size(start: bytes | memoryview) -> int:

@@ -12,7 +12,7 @@ import pytest
 from curvcli.errors import UsageError
 from curvcli.loading.read import read_mesh_file
 from tests.loading.files import CONTENT, OBJ, refused
-from tests.loading.spelling import ascii_stl
+from tests.loading.spelling import ascii_stl, binary_stl
 from tests.loading.test_stl import TETRAHEDRON
 
 
@@ -101,3 +101,36 @@ def test_other_suffixes_are_refused_unless_told(tmp_path: Path) -> None:
         assert read_mesh_file(path, input_format="obj").polygons == 2
     with pytest.raises(UsageError, match="`off` is not known"):
         read_mesh_file(tmp_path / "mesh.off", input_format="off")
+
+
+@pytest.mark.parametrize(
+    "header",
+    [b"\x1f\x8b", b"\x1f\x8b\x08\0\0\0\0\0\0\x03", gzip.compress(b"a header")[:80], b"\x1f\x8b\x08 made by a scanner"],
+)
+@pytest.mark.parametrize("rest", [b"", b"\n"])
+@pytest.mark.parametrize("name", ["part.stl", "part.STL.gz"])
+def test_a_header_that_begins_as_gzip_does(tmp_path: Path, header: bytes, rest: bytes, name: str) -> None:
+    """A binary STL is one where it is no gzip; its hash is that of the file."""
+    data = binary_stl(TETRAHEDRON, header.ljust(80, b"\0")) + rest
+    path = tmp_path / name
+    path.write_bytes(data)
+    mesh = read_mesh_file(path)
+    assert (mesh.format, mesh.polygons, mesh.sha256) == ("stl", 4, hashlib.sha256(data).hexdigest())
+    assert [notice.code for notice in mesh.notices] == ["trailing_data"] * len(rest)
+    assert read_mesh_file(io.BytesIO(data), input_format="stl").polygons == 4
+    if not rest:
+        assert read_mesh_file(io.BytesIO(data)).polygons == 4
+
+
+def test_damaged_gzip_is_no_stl(tmp_path: Path) -> None:
+    packed = gzip.compress(CONTENT["stl"])
+    for data in (packed[:-9], packed[:20] + b"\xff" + packed[21:]):
+        path = tmp_path / "part.stl.gz"
+        path.write_bytes(data)
+        assert "damaged gzip data found" in refused(path)
+
+
+def test_a_solid_with_a_byte_too_many_from_a_stream() -> None:
+    data = binary_stl(TETRAHEDRON, b"solid") + b"\n"
+    for wanted in (None, "stl", "obj", "ply"):
+        assert read_mesh_file(io.BytesIO(data), input_format=wanted).polygons == 4

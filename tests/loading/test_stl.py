@@ -127,6 +127,16 @@ def test_what_is_counted() -> None:
     assert codes(binary_stl(TETRAHEDRON) + b"1234567") == {"trailing_data": 7}
 
 
+@pytest.mark.parametrize(
+    "header", [b"solid", b"solid test.stl    2014-10-16", b"  SOLID facet", b"made by", b"\x1f\x8b"]
+)
+@pytest.mark.parametrize("rest", [b"\n", b"\r\n", b"\0" * 46, b"x" * 500])
+def test_bytes_after_the_last_facet_are_counted_whatever_the_header_says(header: bytes, rest: bytes) -> None:
+    data = binary_stl(TETRAHEDRON, header) + rest
+    assert parsed("stl", data).corners.tolist() == CORNERS
+    assert codes(data) == {"trailing_data": len(rest)}
+
+
 class TestRefused:
     def test_binary_shorter_than_announced(self) -> None:
         data = binary_stl(TETRAHEDRON)
@@ -143,7 +153,9 @@ class TestRefused:
         assert refused(data[:80] + b"\xff\xff\xff\xff" + data[84:]).startswith("byte 80: 4294967295 facets announced")
 
     def test_neither_text_nor_binary(self) -> None:
-        assert "begins with `solid`" in refused(binary_stl(TETRAHEDRON, b"solid") + b"!")
+        message = refused(binary_stl(TETRAHEDRON, b"solid")[:-1])
+        assert "begins with `solid`" in message
+        assert "asks for 284 bytes, not 283" in message
 
     def test_wrong_numbers_of_vertices(self) -> None:
         lines = ascii_stl(TETRAHEDRON).splitlines(keepends=True)
