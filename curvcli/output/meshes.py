@@ -30,13 +30,13 @@ def write_mesh(
     asked.
     """
     if suffix == ".ply":
-        write_ply(stream, points, faces, **parts)
-    elif suffix == ".obj":
+        return write_ply(stream, points, faces, **parts)
+    if suffix == ".obj":
         write_obj(stream, points, faces, **parts)
     elif suffix in (".vtp", ".vtu"):
         from .vtk import write_vtk
 
-        write_vtk(stream, suffix, points, faces, **parts)
+        return write_vtk(stream, suffix, points, faces, **parts)
     elif suffix == ".glb":
         from .glb import write_glb
 

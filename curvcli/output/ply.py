@@ -8,12 +8,16 @@ from typing import Any, BinaryIO, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import Notice
 from ..loading.model import Labels
+from ..printable import shown
+from .names import fitting, one_word, respelt
 from .parts import Parts
 from .tables import Column
 
 _ROWS_AT_A_TIME = 16384  # a block of them stays in the cache until it is written
 _NAMES_TOLD = 256
+_CORNERS = "vertex_indices"
 _SCALARS = {
     "i1": "char",
     "u1": "uchar",
@@ -28,21 +32,23 @@ _SCALARS = {
 
 def write_ply(
     stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
-) -> None:
+) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) as binary little-endian PLY with `double` positions, in bounded memory.
 
     Of the parts, polygons, colours, properties and comments. Properties keep their type; masked integers become double.
-    Labels become uchar or int codes whose meaning stands in comments.
+    Labels become uchar or int codes whose meaning stands in comments. Names are words in UTF-8; what is no word, or is
+    the name of something else, is spelt in another way, which is returned.
     """
     vertices: dict[str, NDArray[Any]] = {axis: points[:, k] for k, axis in enumerate("xyz")}
     if (colors := parts.get("vertex_colors")) is not None:
         vertices |= {name: colors[:, k] for k, name in enumerate(("red", "green", "blue"))}
-    told = [" ".join(comment.split()) for comment in parts.get("comments", ())]
-    properties = _scalars(parts.get("vertex_properties") or {}, told)
-    if clash := vertices.keys() & properties.keys():
+    told = [shown(" ".join(comment.split())) for comment in parts.get("comments", ())]
+    of_vertices, of_faces = parts.get("vertex_properties") or {}, parts.get("face_properties") or {}
+    if clash := vertices.keys() & of_vertices.keys():
         raise ValueError(f"two vertex properties named {', '.join(sorted(clash))}")
-    vertices |= properties
-    per_face = _scalars(parts.get("face_properties") or {}, told)
+    words = fitting(of_vertices, one_word, vertices), fitting(of_faces, one_word, (_CORNERS,))
+    vertices |= _scalars(of_vertices, words[0], told)
+    per_face = _scalars(of_faces, words[1], told)
     corners, sizes = parts.get("polygons") or (faces.reshape(-1), None)
     if sizes is not None and len(sizes) and sizes.min() == sizes.max() > 0:
         corners, sizes = corners.reshape(-1, int(sizes[0])), None
@@ -51,27 +57,34 @@ def write_ply(
     widest = corners.shape[1] if sizes is None else int(sizes.max(initial=0))
     count = "<u1" if widest <= 255 else "<u4"
 
-    header = ["ply", "format binary_little_endian 1.0", *(f"comment {line}" for line in told)]
+    header = ["ply", "format binary_little_endian 1.0", *(f"comment {_ascii(line)}" for line in told)]
     header.append(f"element vertex {len(points)}")
     header += [f"property {_SCALARS[column.dtype.str[1:]]} {name}" for name, column in vertices.items()]
     header.append(f"element face {len(corners) if sizes is None else len(sizes)}")
-    header.append(f"property list {_SCALARS[count[1:]]} int vertex_indices")
+    header.append(f"property list {_SCALARS[count[1:]]} int {_CORNERS}")
     header += [f"property {_SCALARS[column.dtype.str[1:]]} {name}" for name, column in per_face.items()]
-    stream.write(("\n".join([*header, "end_header"]) + "\n").encode("ascii", "backslashreplace"))
+    stream.write(("\n".join([*header, "end_header"]) + "\n").encode("utf-8", "backslashreplace"))
 
     for block in _records(vertices, len(points)):
         stream.write(block.data)
     blocks = _even(corners, count, per_face) if sizes is None else _mixed(corners, sizes, count, per_face)
     for rows in blocks:
         stream.write(rows.data)
+    return respelt(*words)
+
+
+def _ascii(line: str) -> str:
+    return line.encode("ascii", "backslashreplace").decode("ascii")
 
 
 def _records(columns: Mapping[str, NDArray[Any]], length: int) -> Iterator[NDArray[Any]]:
     """The rows of the columns side by side, a block at a time."""
-    block = np.empty(min(length, _ROWS_AT_A_TIME), [(name, column.dtype) for name, column in columns.items()])
+    # By number: not every name is one that a field may have.
+    fields = [(str(place), column.dtype) for place, column in enumerate(columns.values())]
+    block = np.empty(min(length, _ROWS_AT_A_TIME), fields)
     for start in range(0, length, _ROWS_AT_A_TIME):
         rows = block[: min(_ROWS_AT_A_TIME, length - start)]
-        for name, column in columns.items():
+        for (name, _), column in zip(fields, columns.values(), strict=True):
             rows[name] = column[start : start + len(rows)]
         yield rows
 
@@ -80,8 +93,7 @@ def _even(
     corners: NDArray[np.integer[Any]], count: str, properties: Mapping[str, NDArray[Any]]
 ) -> Iterator[NDArray[Any]]:
     """The face rows when all polygons have the same number of corners; corners (P, n)."""
-    # The names of properties are single words, so that these two cannot meet one of them.
-    fields = [(name, column.dtype) for name, column in properties.items()]
+    fields = [(str(place), column.dtype) for place, column in enumerate(properties.values())]
     sides = corners.shape[1]
     record = np.dtype([("corner count", count), ("corner list", "<i4", (sides,)), *fields])
     step = max(1, _ROWS_AT_A_TIME // max(1, sides // 4))
@@ -90,7 +102,7 @@ def _even(
         rows = np.empty(len(part), record)
         rows["corner count"] = sides
         rows["corner list"] = part
-        for name, column in properties.items():
+        for (name, _), column in zip(fields, properties.values(), strict=True):
             rows[name] = column[start : start + len(part)]
         yield rows
 
@@ -126,9 +138,9 @@ def _mixed(
         start = stop
 
 
-def _scalars(columns: Mapping[str, Column], told: list[str]) -> dict[str, NDArray[Any]]:
+def _scalars(columns: Mapping[str, Column], words: Mapping[str, str], told: list[str]) -> dict[str, NDArray[Any]]:
     """The columns in the scalar types of PLY, little-endian; the meaning of label codes is added to the comments."""
-    return {_token(name): _scalar(name, column, told) for name, column in columns.items()}
+    return {words[name]: _scalar(words[name], column, told) for name, column in columns.items()}
 
 
 def _scalar(name: str, column: Column, told: list[str]) -> NDArray[Any]:
@@ -148,7 +160,7 @@ def _scalar(name: str, column: Column, told: list[str]) -> NDArray[Any]:
 
 def _codes(name: str, labels: Labels, told: list[str]) -> NDArray[Any]:
     few = len(labels.names) <= 255
-    told.append(meaning(_token(name), labels, 255 if few else -1))
+    told.append(meaning(name, labels, 255 if few else -1))
     if not few:
         return labels.codes.astype("<i4", copy=False)
     return np.where(labels.codes < 0, np.uint8(255), labels.codes.astype(np.uint8))
@@ -161,9 +173,4 @@ def meaning(name: str, labels: Labels, none: int) -> str:
         meanings.append(f"and {len(labels.names) - _NAMES_TOLD} more")
     if (labels.codes < 0).any():
         meanings.append(f"{none} none")
-    return f"{name}: " + ", ".join(meanings)
-
-
-def _token(name: str) -> str:
-    """A property's name as one word, as the header needs it."""
-    return "_".join(name.split()) or "_"
+    return shown(f"{name}: " + ", ".join(meanings))

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, BinaryIO, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import Notice
 from ..loading.model import Labels
+from ..printable import shown
+from .names import fitting, respelt, xml_attribute, xml_name
 from .parts import Parts, Polygons
 from .ply import meaning
 from .tables import Column
@@ -19,32 +22,41 @@ _COLORS = "RGB"
 
 def write_vtk(
     stream: BinaryIO, suffix: str, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
-) -> None:
+) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) as `.vtp` (polygons) or `.vtu` (unstructured grid), positions in float64.
 
     Of the parts everything but triangles. Properties become arrays of points and cells under their names; three that
     end in _x, _y, _z become a vector array as well. Labels are codes, -1 for none, whose meaning stands in the comments
-    of the XML: field arrays of text would keep other readers from the file. The colours are the array RGB.
+    of the XML: field arrays of text would keep other readers from the file. The colours are the array RGB. A name that
+    XML cannot hold, or that is taken, is spelt in another way, which is returned.
     """
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
     data, arrays = _mesh(suffix, faces, parts.get("polygons"))
-    told = [" ".join(comment.split()) for comment in parts.get("comments", ())]
+    told = [shown(" ".join(comment.split())) for comment in parts.get("comments", ())]
     at = vtkPoints()
     at.SetData(_array(points, arrays))
     data.SetPoints(at)
-    of_vertices, of_faces = parts.get("vertex_properties") or {}, parts.get("face_properties") or {}
-    for properties, target in ((of_vertices, data.GetPointData()), (of_faces, data.GetCellData())):
+    colors, active = parts.get("vertex_colors"), parts.get("active")
+    own = (_COLORS,) if colors is not None else ()
+    words: list[dict[str, str]] = []
+    for key, target, taken in (
+        ("vertex_properties", data.GetPointData(), own),
+        ("face_properties", data.GetCellData(), ()),
+    ):
+        given: Mapping[str, Column] = parts.get(key) or {}  # type: ignore[assignment]
+        words.append(fitting(given, xml_name, taken))
+        properties = {words[-1][name]: column for name, column in given.items()}
         for name, column in properties.items():
             _add(target, name, _values(name, column, told), arrays)
-        for stem in _vectors(properties):
+        for stem in _vectors(properties, taken):
             components = [np.asarray(properties[f"{stem}_{axis}"], np.float64) for axis in "xyz"]
             _add(target, stem, np.stack(components, axis=1), arrays)
-    if (colors := parts.get("vertex_colors")) is not None:
+    if colors is not None:
         _add(data.GetPointData(), _COLORS, colors, arrays)
-    if (active := parts.get("active")) is not None:
-        data.GetPointData().SetActiveScalars(active)
+    if active is not None:
+        data.GetPointData().SetActiveScalars(xml_attribute(words[0].get(active, active)))
     writer = vtkXMLPolyDataWriter() if suffix == ".vtp" else vtkXMLUnstructuredGridWriter()
     writer.SetInputData(data)
     writer.SetWriteToOutputString(True)
@@ -62,6 +74,7 @@ def write_vtk(
     stream.write(content[:start])
     stream.write(_comment(told))
     stream.write(content[start:])
+    return respelt(*words)
 
 
 def _mesh(suffix: str, faces: NDArray[np.integer[Any]], polygons: Polygons | None) -> tuple[Any, list[Any]]:
@@ -97,14 +110,11 @@ def _values(name: str, column: Column, told: list[str]) -> NDArray[Any]:
     return column
 
 
-def _vectors(properties: Mapping[str, Column]) -> list[str]:
-    """Stems of three float columns that are the components of a vector and have no column of that name beside them."""
+def _vectors(properties: Mapping[str, Column], taken: Collection[str]) -> list[str]:
+    """Stems of three float columns that are the components of a vector and whose name nothing else has."""
     stems = [name[:-2] for name in properties if name.endswith("_x")]
-    return [
-        stem
-        for stem in stems
-        if stem and stem not in properties and all(_is_float(properties.get(f"{stem}_{axis}")) for axis in "xyz")
-    ]
+    free = [stem for stem in stems if stem and stem not in properties and stem not in taken]
+    return [stem for stem in free if all(_is_float(properties.get(f"{stem}_{axis}")) for axis in "xyz")]
 
 
 def _is_float(column: Column | None) -> bool:
@@ -122,7 +132,7 @@ def _array(values: NDArray[Any], arrays: list[Any]) -> Any:
 
 def _add(target: Any, name: str, values: NDArray[Any], arrays: list[Any]) -> None:
     array = _array(values, arrays)
-    array.SetName(name)
+    array.SetName(xml_attribute(name))  # VTK writes names into the XML as they are
     target.AddArray(array)
 
 
