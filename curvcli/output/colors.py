@@ -41,6 +41,7 @@ class ColorScale:
     gradient: (511, 3) uint8, the map from low to high. undefined: the colour of nulls, which is not in the map.
     clipped_below, clipped_above, nulls: how many values lie outside the range or are undefined.
     signed: whether 0 is the middle of the map. categories: the labels that occur, of a column that has no numbers.
+    rounded: (V,) values other than 0 that rounding alone explains, which have the colour of 0; None for none.
     """
 
     rgb: NDArray[np.uint8]
@@ -54,6 +55,13 @@ class ColorScale:
     nulls: int
     signed: bool = False
     categories: tuple[Category, ...] = ()
+    rounded: NDArray[np.bool_] | None = None
+
+    def settled(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The values as they are coloured: rounding is 0, and a range of one value is that value up to its rounding."""
+        if self.rounded is not None:
+            values = np.where(self.rounded, 0.0, values)
+        return values if self.low is None or self.high is None else _settled(values, self.low, self.high)
 
 
 def colorize(
@@ -63,6 +71,7 @@ def colorize(
     value_range: str | None = None,
     signed: bool = False,
     ignore: NDArray[np.bool_] | None = None,
+    floor: NDArray[np.float64] | None = None,
 ) -> ColorScale:
     """Colour one value per vertex; what is NaN or masked gets a colour that the map does not hold.
 
@@ -71,9 +80,15 @@ def colorize(
     Where that is a single value, but for rounding, though the values differ, as K of a finely divided cube, it is their
     whole range; where rounding is all by which they differ, they are one value.
     ignore: (V,) values that do not help to choose the range, unless there are no others.
+    floor: (V,) sizes up to which values are rounding, and are coloured as 0.
     Errors: UsageError for an unknown map, with the nearest names, and for a range that is none.
     """
     values = _floats(values)
+    rounded = None if floor is None else (np.abs(values) <= floor) & (values != 0)
+    if rounded is not None and rounded.any():
+        values = np.where(rounded, 0.0, values)
+    else:
+        rounded = None
     name = cmap if cmap is not None else DIVERGING if signed else SEQUENTIAL
     gradient = _gradient(name)
     undefined = _undefined(gradient)
@@ -82,14 +97,15 @@ def colorize(
     rgb = np.empty((len(values), 3), np.uint8)
     below = above = 0
     if low is not None and high is not None:
-        values = settled(values, low, high)
+        values = _settled(values, low, high)
         rgb[:] = np.take(gradient, _positions(values, low, high), axis=0)
         below, above = int((values < low).sum()), int((values > high).sum())
     rgb[nulls] = undefined
-    return ColorScale(rgb, low, high, name, gradient, undefined, below, above, int(nulls.sum()), signed)
+    count = int(nulls.sum())
+    return ColorScale(rgb, low, high, name, gradient, undefined, below, above, count, signed, rounded=rounded)
 
 
-def settled(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
+def _settled(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
     """The values; where the range is a single one, those that differ from it by their rounding only are that one."""
     if low != high:
         return values

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._version import __version__
-from .colors import settled
 from .legend import Colored, about, mesh_name, sentence, ticks
 from .look import Look, arrange
 from .panels import draw_title, legend
@@ -102,7 +101,7 @@ def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Analysis, box:
     assert scale.high is not None
     values = np.where(analysis.surface.referenced, analysis.vertices[one.name].astype(np.float64), np.nan)
     low, high, bins = scale.low, scale.high, None
-    values = settled(values, low, high)
+    values = scale.settled(values)
     if one.quantity.kind == "count" and high - low < _MOST:
         # A bin for each number, in the middle of it.
         low, high = math.floor(low) - 0.5, math.ceil(high) + 0.5

@@ -77,12 +77,14 @@ def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> st
     parts = ((scale.clipped_below, "below"), (scale.clipped_above, "above"))
     cut = [f"{count:,} {where}" for count, where in parts if count]
     if scale.low == scale.high and not cut:
-        return f"{number(scale.low)}{behind} wherever defined"
+        of = " within rounding" if scale.rounded is not None else ""
+        return f"{number(scale.low)}{behind}{of} wherever defined"
     digits = next((d for d in range(4, 17) if number(scale.low, d) != number(scale.high, d)), 17)
     ends = f"{number(scale.low, digits)} to {number(scale.high, digits)}{behind}"
     # Percentiles cut something, unless they would tell values apart by their rounding: then the range is that of all.
     words = range_words(value_range, scale.signed) if cut or value_range is not None else "all values"
-    return f"{ends} ({words}), cuts {' and '.join(cut) or 'nothing'}"
+    settled = "" if scale.rounded is None else f", {int(scale.rounded.sum()):,} are 0 within rounding"
+    return f"{ends} ({words}), cuts {' and '.join(cut) or 'nothing'}{settled}"
 
 
 def sentence(colored: Colored, value_range: str | None, length: str | None) -> str:

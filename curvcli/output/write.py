@@ -182,6 +182,7 @@ def _colored_column(name: str, chosen: list[str]) -> Quantity:
 def colored(analysis: Analysis, name: str, appearance: Appearance) -> Colored:
     """A column with the colours that it has in every output."""
     from .colors import categorize, colorize
+    from .floor import floor
     from .legend import Colored
 
     quantity = _colored_column(name, analysis.chosen)
@@ -194,6 +195,7 @@ def colored(analysis: Analysis, name: str, appearance: Appearance) -> Colored:
         value_range=appearance.value_range,
         signed=quantity.signed or quantity.vector,
         ignore=analysis.surface.boundary,
+        floor=floor(analysis, quantity, values),
     )
     return Colored(name, quantity, scale)
 

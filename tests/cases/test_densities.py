@@ -6,6 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from tests.cli.program import curvcli, wrote
 from tests.shared import SHARED, needs_shared
 
@@ -48,3 +50,16 @@ def test_a_shape_index_at_a_radius() -> None:
     for name in names:
         assert columns[name]["median"] > 0.9
         assert columns[name]["nulls"] == 0
+
+
+@pytest.mark.parametrize("name", ["flat_plate_tilted.ply", "two_planes.ply"])
+def test_rounding_has_one_colour(name: str, tmp_path: Path) -> None:
+    pytest.importorskip("pyvista")
+    ended = curvcli("analyze", case(name), "-o", tmp_path / "x.png", "--color-by", "K_density,h_signed")
+    assert ended.code == 0
+    lines = [line for line in ended.err.splitlines() if "x.png" in line]
+    assert "K_density: 0 length⁻² within rounding wherever defined" in lines[0]
+    flat = name.startswith("flat")
+    assert ("h_signed: 0 length⁻¹ within rounding wherever defined" in lines[1]) == flat
+    assert "within rounding" in lines[1]
+    assert "clamped_radicand" not in warnings(name)

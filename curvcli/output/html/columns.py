@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...loading.model import Labels
 from ...tables import vertex_table
-from ..colors import ColorScale, settled
+from ..colors import ColorScale
 from ..legend import Colored
 from ..write import colored
 
@@ -74,7 +74,7 @@ def columns(analysis: Analysis, appearance: Appearance, asked: tuple[str, ...]) 
             continue
         values = np.where(referenced & ~np.ma.getmaskarray(given), np.ma.getdata(given), np.nan).astype(np.float64)
         painted = colored(analysis, name, appearance if shared or name in asked else plain)
-        bars, most = histogram(values[referenced], painted.scale)
+        bars, most = histogram(painted.scale.settled(values)[referenced], painted.scale)
         found.append(Column(painted, painted.unit(analysis.conventions.unit), values, bars, most))
     return found
 
@@ -84,7 +84,6 @@ def histogram(values: NDArray[np.float64], scale: ColorScale) -> tuple[list[Bar]
     low, high = scale.low, scale.high
     if low is None or high is None:
         return [], 0
-    values = settled(values, low, high)
     inside = values[(values >= low) & (values <= high)]
     half = high / 2 - low / 2
     place = np.full(len(inside), 0.5) if half == 0 else np.clip((inside / 2 - low / 2) / half, 0, 1)

@@ -203,6 +203,8 @@ def _blocks(analysis: Analysis, display: Display, shown: list[Column]) -> dict[s
         numbers = scaled(column.values[vertices])
         meta["columns"][column.name] = {"exponent": numbers.exponent}
         found[f"column-{index}"] = packed(numbers.parts)
+        if column.scale.rounded is not None:
+            found[f"rounded-{index}"] = packed(column.scale.rounded[vertices].astype(np.uint8))
     return {**found, "meta": meta}
 
 
@@ -237,6 +239,7 @@ def _data(
             **meta["columns"][column.name],
             "low": column.scale.low,
             "high": column.scale.high,
+            "rounded": column.scale.rounded is not None,
             "map": column.scale.cmap,
             "undefined": [int(part) for part in column.scale.undefined],
         }

@@ -23,13 +23,13 @@ function placed(stored, axes) {
   return found;
 }
 
-/** Where between the ends of its colours each value of a column lies, and which are defined. */
-function spread(stored, of) {
+/** Where between the ends of its colours each value of a column lies, and which are defined; rounding lies at 0. */
+function spread(stored, of, rounded) {
   const n = vertices.length;
   const place = new Float32Array(n), known = new Float32Array(n);
   const half = of.high / 2 - of.low / 2;
   for (let i = 0; i < n; i++) {
-    const value = real(stored[i], of, stored.length > n ? stored[n + i] : 0);
+    const value = rounded?.[i] ? 0 : real(stored[i], of, stored.length > n ? stored[n + i] : 0);
     if (Number.isNaN(value) || of.low === null) continue;
     known[i] = 1;
     place[i] = half > 0
@@ -108,12 +108,13 @@ async function recolor() {
   const index = menu.selectedIndex, of = data.columns[index];
   document.querySelectorAll(".scale").forEach((figure, k) => { figure.hidden = k !== index; });
   const stored = await column(index);
+  const rounded = of.rounded ? await numbers("rounded-" + index, Uint8Array) : null;
   const map = await inflated(data.maps[of.map]);
   if (menu.selectedIndex !== index) return;
   $("undefined-swatch").style.background = `rgb(${of.undefined})`;
   $("view").setAttribute("aria-label", `The surface coloured by ${of.name}`);
   if (scene) {
-    const { place, known } = spread(stored, of);
+    const { place, known } = spread(stored, of, rounded);
     scene.setColors(place, known, map, of.undefined);
   }
   if (chosen !== null) choose(chosen);
