@@ -13,7 +13,7 @@ from ..settings import Scale
 from ..slices import slices
 from ..surface import Surface
 from .directions import star_tensors
-from .mean import pointed
+from .mean import pointed, with_sign
 from .star import null_where, ratio
 from .tensor import tangential
 
@@ -38,15 +38,22 @@ def _sums(surface: Surface, scale: Scale, used: Flags, rows: list[Floats]) -> Fl
         Quantity("ring_K", public=False),
         Quantity("ring_H_vec", public=False, vector=True, length_exponent=1, mean_degree=1),
         Quantity("ring_vector", public=False, vector=True, length_exponent=2, parity="odd"),
+        Quantity("ring_extent", public=False, length_exponent=1),
     )
 )
 def ring_sums(
-    surface: Surface, scale: Scale, K: Column, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column
+    surface: Surface,
+    scale: Scale,
+    K: Column,
+    H_vec: VectorColumn,
+    star_vector: VectorColumn,
+    star_area: Column,
+    star_extent: Column,
 ) -> tuple[Column, ...]:
-    """ΣA, ΣK, Σ**H** and Σ**A** of the vertices of each neighbourhood."""
+    """ΣA, ΣK, Σ**H**, Σ**A** and the extents of the stars of the vertices of each neighbourhood."""
     used = surface.interior & np.isfinite(K) & np.isfinite(H_vec[0])
-    total = _sums(surface, scale, used, [star_area, K, *H_vec, *star_vector])
-    return total[0], total[1], total[2:5], total[5:8]
+    total = _sums(surface, scale, used, [star_area, K, *H_vec, *star_vector, star_extent])
+    return total[0], total[1], total[2:5], total[5:8], total[8]
 
 
 @curvature_pass(
@@ -70,11 +77,14 @@ def K_ring(surface: Surface, ring_K: Column, ring_area: Column) -> Column:
     preserves="Σ**H**_p is the force on the rim of the neighbourhood, exactly",
     **_SHARED,
 )
-def h_ring(surface: Surface, ring_H_vec: VectorColumn, ring_vector: VectorColumn, ring_area: Column) -> Column:
-    """Mean curvature κ₁ + κ₂ of the neighbourhood, positive where convex; null where |ΣA_vec| < 1e-12 ΣA."""
+def h_ring(
+    surface: Surface, ring_H_vec: VectorColumn, ring_vector: VectorColumn, ring_area: Column, ring_extent: Column
+) -> Column:
+    """Mean curvature κ₁ + κ₂ of the neighbourhood, positive where convex; null where |ΣA_vec| < 1e-12 ΣA, and where
+    ΣH_vec and ΣA_vec are at right angles to rounding, so that there is no sign."""
     length = np.sqrt(dot(ring_vector, ring_vector))
     size = ratio(np.sqrt(dot(ring_H_vec, ring_H_vec)), length, pointed(surface.interior, length, ring_area))
-    return null_where(surface.without_orientation, np.where(dot(ring_H_vec, ring_vector) < 0, size, 0.0 - size))
+    return null_where(surface.without_orientation, with_sign(size, ring_H_vec, ring_vector, ring_extent))
 
 
 _KAPPA: dict[str, Any] = {

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import LOST, cross, dot, triangles
+from ..blocks import EPSILON, LOST, cross, dot, triangles
 from ..declare import Column, Flags, VectorColumn, curvature_pass
 from ..surface import Surface
 from ..topology import Index, ends_of, next_corner
 from .star import null_where, ratio
+
+# Sums over a star are known to this part of the extents of its faces.
+_ROUNDING = 8 * EPSILON
 
 
 @curvature_pass(
@@ -119,15 +122,39 @@ def pointed(interior: Flags, length: Column, area: Column) -> Flags:
     parity="odd",
     signed=True,
     preserves="see h",
-    boundary="null",
+    boundary="null; also where **H**_p ⊥ **A**_p to rounding",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
 )
-def h_signed(without_orientation: Flags, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
-    """The mean curvature H = κ₁ + κ₂ with its sign: +2/r on a sphere of radius r seen from outside."""
-    signed = 0.0 - h
-    np.copyto(signed, h, where=dot(H_vec, star_vector) < 0)
-    return null_where(without_orientation, signed)
+def h_signed(
+    without_orientation: Flags, h: Column, H_vec: VectorColumn, star_vector: VectorColumn, star_extent: Column
+) -> Column:
+    """The mean curvature H = κ₁ + κ₂ with its sign: +2/r on a sphere of radius r seen from outside.
+
+    Null where |H·A| < 1e-12 |H||A| and H is not 0: the sign would be rounding. On saddle-like and minimal meshes, whose
+    two normals can be at right angles, h_perp is the signed value, which is continuous.
+    """
+    return null_where(without_orientation, with_sign(h, H_vec, star_vector, star_extent))
+
+
+def with_sign(size: Column, H_vec: VectorColumn, vector: VectorColumn, extent: Column) -> Column:
+    """Mean curvatures of a size |**H**|/|**A**|, positive where **H**·**A** < 0; NaN where that sign is rounding and
+    **H** is not.
+
+    extent: (n,) of the faces that **H** and **A** are summed from, to which the rounding of **H** is proportional. An
+    **H** below it is 0, and so is the size, whatever its sign.
+    """
+    product, square = dot(H_vec, vector), dot(H_vec, H_vec)
+    signed = 0.0 - size
+    np.copyto(signed, size, where=product < 0)
+    # |H·A| below a part of |H||A|, or of what rounding makes of |A|, both sides times |H|/|A|.
+    product *= size
+    product *= product
+    room = extent * extent
+    lost = product < np.maximum(LOST**2 * square, _ROUNDING**2 * room) * square
+    if lost.any():
+        signed[lost & (square > LOST**2 * room)] = np.nan
+    return signed
 
 
 @curvature_pass(
