@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -41,24 +41,46 @@ _SHARED: dict[str, Any] = {
         Quantity("corrected_area", public=False, length_exponent=2),
     )
 )
-def corrected_measures(surface: Surface, scale: Scale, fitted_normal: VectorColumn) -> tuple[Column, ...]:
+def corrected_measures(
+    surface: Surface, scale: Scale, normals: Literal["mesh", "file"], fitted_normal: VectorColumn, K: Column
+) -> tuple[Column, ...]:
     """Σμ₂/Σμ₀ (V,) and Σμ_XY/Σμ₀ (6, V), sharpened, and Σμ₀.
 
     Each face's measures go to its corners in equal parts and are summed over neighbourhoods. What an average over a
     neighbourhood takes off the peaks is estimated by averaging once more, and given back: x̂ = 2 x̄ − x̿.
+    Σμ₂/Σμ₀ is cut to what the angle defects allow that the two averages reach: a sheet without any is flat, and what
+    normals say else, such as those that one-sided neighbourhoods tilt at a rim, is their error.
     """
     corners = _Corners(surface)
     measures = _measures(surface, fitted_normal)
-    mean = _divided(sums(surface, scale, corners.gather(measures)))
+    mean, defects = _averaged(surface, scale, corners.gather(measures), _sizes_of_defects(surface, K))
     _spread(surface, mean, measures)
-    again = _divided(sums(surface, scale, corners.gather(measures)))
+    defects[np.isnan(mean[:, _MU_0])] = np.inf  # a neighbourhood that was not looked at
+    again, defects = _averaged(surface, scale, corners.gather(measures), defects)
     del measures
     found = np.empty((7, surface.n_vertices))
     for block in slices(surface.n_vertices):
         known = np.isfinite(fitted_normal[:, block]).all(axis=0)
         sharp = 2 * mean[block, _MU_2:] - again[block, _MU_2:]
         found[:, block] = np.where(known, sharp.T, np.nan)
+        if normals == "mesh":
+            most = defects[block] / mean[block, _MU_0]
+            found[0, block] = np.clip(found[0, block], -most, most) + 0.0  # no -0
     return found[0], found[1:], mean[:, _MU_0].copy()
+
+
+def _sizes_of_defects(surface: Surface, K: Column) -> Column:
+    """(V,) |K| of the vertices inside, 0 within rounding, infinite where it is null."""
+    size = np.where(surface.interior, np.abs(K), 0.0)
+    size[size <= 8 * EPSILON * surface.degree] = 0.0
+    size[np.isnan(size)] = np.inf
+    return size
+
+
+def _averaged(surface: Surface, scale: Scale, measures: Floats, defects: Column) -> tuple[Floats, Column]:
+    """(V, 9) averages over neighbourhoods of the measures at the vertices, and (V,) sums of the sizes of defects."""
+    total = sums(surface, scale, np.column_stack([measures, defects]))
+    return _divided(np.ascontiguousarray(total[:, :-1])), total[:, -1].copy()
 
 
 @curvature_pass(
@@ -73,7 +95,8 @@ def K_corrected(corrected_gauss: Column) -> Column:
     """Gauss curvature estimated from interpolated normals at the scale of --rings or --radius.
 
     Of a face u₀, u₁, u₂ are the normals at its corners, ū is their mean, and d₁, d₂ are its edges from corner 0.
-    Sharpened: 2x̄ − x̿, where x̄ is the quotient and x̿ what comes of averaging it once more.
+    Sharpened: 2x̄ − x̿, where x̄ is the quotient and x̿ what comes of averaging it once more. With the mesh's normals,
+    its size is at most Σ|K_p| of the vertices in reach over Σμ₀: 0 on developable sheets, up to their rims.
     """
     return corrected_gauss
 
