@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .blocks import Triangles, Vector, dot, triangles
+from .doubledouble import THIN_COTANGENT, cross, differences, product
 from .slices import slices
 
 if TYPE_CHECKING:
@@ -46,11 +47,39 @@ def dirichlet(surface: Surface, f: Floats) -> Dirichlet:
         sides = (t.v, t.w, t.u) if f is surface.xyz else _opposite_sides(f, t.corners)
         squares = [dot(side, side) for side in sides]
         cotangents, cosecants, flat = _angles(t)
+        thin = np.flatnonzero(np.maximum.reduce(np.abs(cotangents)) > THIN_COTANGENT)
+        for cotangent in cotangents:
+            cotangent[thin] = 0.0
         energy[block] = 0.25 * sum(c * s for c, s in zip(cotangents, squares, strict=True))
+        if len(thin):
+            energy[block.start + thin] = _add_thin(gradient, surface.xyz, f, t.corners[:, thin])
         energy[block][flat] = np.nan
         energy_terms[block] = 0.25 * sum(c * s for c, s in zip(cosecants, squares, strict=True))
         _scatter(gradient, gradient_terms, t.corners, sides, squares, cotangents, cosecants)
     return Dirichlet(energy, gradient, energy_terms, gradient_terms)
+
+
+def _add_thin(gradient: Floats, xyz: Floats, f: Floats, corners: NDArray[np.intp]) -> Floats:
+    """(n,) energies of thin faces at twice the digits, whose gradients are added to those of the vertices.
+
+    For two edges u, w of a face and their images F_u, F_w the cotangent formula is
+    (|w|²|F_u|² − 2 u·w F_u·F_w + |u|²|F_w|²) / (8 area), which is (||w|² F_u − u·w F_w|² + |u × w|²|F_w|²) over
+    8 area |w|²: nothing cancels in that sum. w is the longest edge.
+    """
+    opposite = np.argmax([dot(side, side) for side in _opposite_sides(xyz, corners)], axis=0)
+    apex, base, tip = np.take_along_axis(corners, (opposite + np.arange(3)[:, None]) % 3, axis=0)
+    (u, w), (F_u, F_w) = ([differences(x, base, apex), differences(x, base, tip)] for x in (xyz, f))
+    normal = cross(u, w)
+    square = product(normal, normal)
+    twice_area = square.sqrt()
+    uu, uw, ww = product(u, u), product(u, w), product(w, w)
+    of_u = [ww * a - uw * b for a, b in zip(F_u, F_w, strict=True)]
+    of_w = [uu * b - uw * a for a, b in zip(F_u, F_w, strict=True)]
+    for row, a, b in zip(gradient, of_u, of_w, strict=True):
+        at_apex, at_tip = a / twice_area, b / twice_area
+        for corner, pull in ((apex, at_apex), (tip, at_tip), (base, -(at_apex + at_tip))):
+            np.add.at(row, corner, 0.5 * pull.high)
+    return 0.25 * ((product(of_u, of_u) + square * product(F_w, F_w)) / (twice_area * ww)).high
 
 
 def _opposite_sides(f: Floats, corners: NDArray[np.intp]) -> tuple[Vector, Vector, Vector]:

@@ -88,14 +88,22 @@ def corner_products(xyz: Floats, corners: tuple[NDArray[Any], ...]) -> tuple[Tri
 
     xyz: (3, V). corners: three index arrays. The area's relative error is about 1e-30 · (longest edge)² / area.
     """
-    p, q, r = ([x[corner] for x in xyz] for corner in corners)
-    u, v, w = (
-        [DoubleDouble(*two_difference(b, a)) for a, b in zip(tail, head, strict=True)]
-        for tail, head in ((p, q), (q, r), (p, r))
-    )
-    normal = [u[i] * w[j] - u[j] * w[i] for i, j in ((1, 2), (2, 0), (0, 1))]
-    return (_dot(u, w), -_dot(u, v), _dot(w, v)), _dot(normal, normal).sqrt()
+    p, q, r = corners
+    u, v, w = (differences(xyz, tail, head) for tail, head in ((p, q), (q, r), (p, r)))
+    normal = cross(u, w)
+    return (product(u, w), -product(u, v), product(w, v)), product(normal, normal).sqrt()
 
 
-def _dot(a: list[DoubleDouble], b: list[DoubleDouble]) -> DoubleDouble:
+def cross(a: list[DoubleDouble], b: list[DoubleDouble]) -> list[DoubleDouble]:
+    """a × b of vectors given by their components."""
+    return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
+
+
+def differences(f: Floats, tail: NDArray[Any], head: NDArray[Any]) -> list[DoubleDouble]:
+    """The vectors from points to others, exactly: one number per coordinate. f: (3, V)."""
+    return [DoubleDouble(*two_difference(x[head], x[tail])) for x in f]
+
+
+def product(a: list[DoubleDouble], b: list[DoubleDouble]) -> DoubleDouble:
+    """a · b of vectors given by their components."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from hypothesis import given
@@ -73,3 +74,64 @@ def test_disturbed_values_are_caught(value: float) -> None:
         disturbed = array.copy()
         disturbed[(1, 7) if array.ndim == 2 else 7] += value
         assert the_check(surface, **{name: disturbed}).status == "fail", name
+
+
+def exact_energy(face: np.ndarray, image: np.ndarray) -> mp.mpf:
+    """¼ Σ cot θ |opposite edge of the image|², coordinates taken as exact, in 80 digits."""
+    with mp.workdps(80):
+        total = mp.mpf(0)
+        for k in range(3):
+            p, q, r = (mp.matrix([mp.mpf(float(x)) for x in face[(k + j) % 3]]) for j in range(3))
+            edge = [mp.mpf(float(a)) - mp.mpf(float(b)) for a, b in zip(image[k - 2], image[k - 1], strict=True)]
+            u, w = q - p, r - p
+            cosine = mp.fsum(a * b for a, b in zip(u, w, strict=True))
+            squares = [mp.fsum(a * a for a in x) for x in (u, w)]
+            sine = mp.sqrt(squares[0] * squares[1] - cosine**2)
+            total += cosine / sine * mp.fsum(a * a for a in edge) / 4
+        return total
+
+
+def thin_triangles(seed: int, count: int = 40) -> Mesh:
+    """Needles and caps down to a height of 1e-13 of the length, each turned and moved somehow, that share no vertex."""
+    random = np.random.default_rng(seed)
+    points = []
+    for _ in range(count):
+        height, foot = 10 ** random.uniform(-13, 0), random.choice([0, 1, random.uniform(-1, 2)])
+        triangle = np.array([[0, 0, 0], [1, 0, 0], [foot, height, 0]])[random.permutation(3)]
+        q, _ = np.linalg.qr(random.normal(size=(3, 3)))
+        points.append(triangle @ q.T * 10 ** random.uniform(-3, 3) + random.normal(size=3) * random.choice([0, 1e-3]))
+    return Mesh(np.concatenate(points), np.arange(3 * count, dtype=np.int32).reshape(-1, 3))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_energies_of_needles_to_the_last_digits(seed: int) -> None:
+    body = thin_triangles(seed)
+    analysis = curvcli.analyze(body.surface(), "dirichlet", checks=[])
+    found = analysis.faces["dirichlet"]
+    wanted = np.array([float(exact_energy(body.points[face], body.points[face])) for face in body.faces])
+    kept = ~np.isnan(found)
+    assert kept.sum() > 30
+    np.testing.assert_allclose(found[kept], wanted[kept], rtol=2e-13)
+    assert analysis.totals["dirichlet"] == pytest.approx(wanted[kept].sum(), rel=2e-13)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_energies_and_gradients_of_maps_of_needles(seed: int) -> None:
+    body = thin_triangles(seed)
+    surface = body.surface()
+    image = np.random.default_rng(seed).normal(size=body.points.shape)
+    found = dirichlet(surface, np.ascontiguousarray(image.T))
+    wanted = np.array([float(exact_energy(body.points[face], image[face])) for face in body.faces])
+    kept = ~np.isnan(found.energy)
+    np.testing.assert_allclose(found.energy[kept], wanted[kept], rtol=1e-13)
+    # Euler: a quadratic form is half the sum of its variables times its derivatives.
+    products = (found.gradient.T * image)[body.faces].sum(axis=(1, 2)) / 2
+    size = (np.linalg.norm(found.gradient.T, axis=1) * np.linalg.norm(image, axis=1))[body.faces].sum(axis=1)
+    assert (abs(products - wanted)[kept] <= 1e-13 * size[kept]).all()
+
+
+def test_a_squeezed_torus_keeps_its_digits() -> None:
+    body = zoo("torus")
+    flat = body.moved(body.points * [1, 1e-4, 1e-8])
+    analysis = curvcli.analyze(flat.surface(), "dirichlet", checks=[])
+    np.testing.assert_allclose(analysis.faces["dirichlet"], analysis.faces["area"], rtol=1e-13)

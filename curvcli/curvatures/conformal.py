@@ -55,9 +55,13 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
     source="Sullivan, CMC and Willmore surfaces; Bobenko, A conformal energy for simplicial surfaces",
 )
 def willmore_conformal(surface: Surface, beta: Column) -> Column:
-    """Bobenko's conformal energy of the vertex, never negative."""
+    """Bobenko's conformal energy of the vertex, never negative.
+
+    An inversion about p turns the circumcircles at p into the lines of a closed polygon, and β_e into its turning
+    angles, whose sum is at least 2π (Fenchel). What falls short of that is rounding, and taken as 0.
+    """
     total = np.zeros(surface.n_vertices)
     for block in slices(len(beta)):
         for ends in (surface.edges.a, surface.edges.b):
             np.add.at(total, ends[block].astype(np.intp), beta[block])
-    return null_where(~surface.interior, 0.5 * (total - 2 * np.pi))
+    return null_where(~surface.interior, np.maximum(0.5 * (total - 2 * np.pi), 0.0))
