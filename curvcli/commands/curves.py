@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..curves.measure import CurveMeasures
     from ..report.curves import CurveReport
 
-TABLES = ("curves", "vertices")
+TABLES = ("curves", "vertices", "links")
 
 
 @click.command("curves", short_help="Measure boundary loops and OBJ polylines as space curves.")
@@ -35,7 +35,8 @@ TABLES = ("curves", "vertices")
     "tables",
     metavar="KIND=PATH",
     multiple=True,
-    help="Write a table, KIND curves (a row per curve) or vertices (as -o); repeatable.",
+    help="Write a table, KIND curves (a row per curve), links (a row per pair of closed "
+    "curves) or vertices (as -o); repeatable.",
 )
 @options.as_json
 @options.get("curves.0.writhe")
@@ -46,7 +47,7 @@ TABLES = ("curves", "vertices")
     type=click.IntRange(0),
     default=20_000,
     show_default=True,
-    help="Largest double sum, in edges: the writhe of curves beyond it, smallest first, is left undefined.",
+    help="Largest double sum, in edges: writhe and linking of curves beyond it, smallest first, are left undefined.",
 )
 @options.precision
 @options.weld
@@ -59,9 +60,10 @@ TABLES = ("curves", "vertices")
 @options.schema
 @options.talking
 def command(file: str, **settings: Any) -> int:
-    """Length, turning, torsion, frames, writhe and holonomy of every boundary loop of FILE and every `l` record.
+    """Length, turning, torsion, frames, writhe, linking and holonomy of the boundary loops and `l` records of FILE.
 
-    A polyline whose last index is its first is closed. Boundary loops run with the surface on their left
+    Records that share ends are joined, in any order and direction; where more than two edges meet, curves end. A
+    polyline whose last index is its first is closed. Boundary loops run with the surface on their left
     and have geodesic and normal curvature too. Exits with 3 when FILE has neither.
 
     \b
@@ -154,5 +156,5 @@ def _write(stream: Any, measures: CurveMeasures, report: CurveReport, kind: str,
     else:
         from ..output.tables import write_table
 
-        columns = measures.totals if kind == "curves" else measures.points()
-        write_table(stream, columns, suffix, precision=precision)
+        tables = {"curves": lambda: measures.totals, "links": measures.links_table, "vertices": measures.points}
+        write_table(stream, tables[kind](), suffix, precision=precision)

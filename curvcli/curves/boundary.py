@@ -113,7 +113,7 @@ def walk_boundary(surface: Surface) -> Walk:
     fans = Fans(surface)
     mate, forward = _mates(surface, fans, half_edge)
     first, second = _ends(surface, half_edge, forward)
-    order, start, closed = _walk(mate, first > second)
+    order, start, closed = walk_directed(mate, first > second)
     edge, backward = order % max(len(half_edge), 1), order >= len(half_edge)
     along = forward[edge] != backward
     leaving = half_edge[edge]
@@ -155,7 +155,7 @@ def _mates(surface: Surface, fans: Fans, half_edge: Rows) -> tuple[Rows, Mask]:
     return mate, forward
 
 
-def _walk(mate: Rows, descending: Mask) -> tuple[Rows, Rows, Mask]:
+def walk_directed(mate: Rows, descending: Mask) -> tuple[Rows, Rows, Mask]:
     """Directed edges in order along each curve, where curves begin, and which are closed.
 
     descending: (B,) edges that run from the higher to the lower vertex, after which a closed curve has its beginning.

@@ -10,10 +10,12 @@ import numpy as np
 from ..errors import InputError, Notice
 from ..loading.model import MeshFile
 from ..loading.surfaces import from_file
+from ..loading.weld import weld_exact
 from ..plurals import agree
 from ..surface import Surface
 from .boundary import Boundary, boundary_loops
-from .polygon import Curves, Mask, Rows
+from .joined import Joined, join
+from .polygon import Curves, Rows
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class CurveSet:
 def curves_of_file(file: MeshFile) -> CurveSet:
     """The boundary curves of the file's surface and its `l` polylines.
 
-    A polyline whose last index is its first is closed.
+    Records that share ends are joined (see `join`); a polyline whose last index is its first is closed.
     Errors: InputError for a file without any curve, or coordinates of one that are not finite.
     """
     notices = list(file.notices)
@@ -48,7 +50,8 @@ def curves_of_file(file: MeshFile) -> CurveSet:
         surface = from_file(file)
         notices = list(surface.notices)
         boundary = boundary_loops(surface)
-    vertex, start, closed = _polylines(file)
+    joined = join(file.polylines)
+    vertex, start, closed = joined.vertex, joined.start, joined.closed
     if boundary is not None:
         vertex = np.concatenate([boundary.vertex, vertex])
         start = np.concatenate([boundary.start, boundary.start[-1] + start[1:]])
@@ -60,6 +63,7 @@ def curves_of_file(file: MeshFile) -> CurveSet:
             hint="expected a surface with a boundary, or `l` records in an OBJ file",
         )
     _check_finite(file, vertex)
+    notices += [notice for notice in _of_ends(file, joined) if notice.count]
     curves = Curves(np.ascontiguousarray(file.xyz[:, vertex]), start, closed)
     return CurveSet(curves, vertex, boundary, file, notices)
 
@@ -68,18 +72,6 @@ def curves_of_surface(surface: Surface) -> CurveSet:
     """The boundary curves of a surface."""
     boundary = boundary_loops(surface)
     return CurveSet(boundary.curves, boundary.vertex, boundary, surface.file, list(surface.notices))
-
-
-def _polylines(file: MeshFile) -> tuple[Rows, Rows, Mask]:
-    """Vertices of all polylines, where each begins, and which are closed; the repeated last index is left out."""
-    lines = [line for line in file.polylines if len(line)]
-    if not lines:
-        return np.empty(0, np.int64), np.zeros(1, np.int64), np.empty(0, bool)
-    vertex = np.concatenate(lines).astype(np.int64)
-    sizes = np.fromiter(map(len, lines), np.int64, len(lines))
-    last = np.cumsum(sizes) - 1
-    closed = (vertex[last] == vertex[last - sizes + 1]) & (sizes > 1)
-    return np.delete(vertex, last[closed]), np.concatenate([[0], np.cumsum(sizes - closed)]), closed
 
 
 def _check_finite(file: MeshFile, vertex: Rows) -> None:
@@ -92,6 +84,26 @@ def _check_finite(file: MeshFile, vertex: Rows) -> None:
             path=file.path,
             place=f"vertex {first}",
         )
+
+
+def _of_ends(file: MeshFile, joined: Joined) -> Iterator[Notice]:
+    """Where polylines branch, and which ends of theirs lie at the place of another end."""
+    yield Notice.at(
+        "branching_vertices",
+        joined.branching,
+        "[vertex|vertices] where more than two edges of polylines meet; curves end there",
+        "split the network into curves that share no vertex, or name a way through in one `l` record",
+    )
+    ends = np.flatnonzero(~joined.closed & (np.diff(joined.start) > 1))
+    vertex = np.unique(np.concatenate([joined.vertex[joined.start[ends]], joined.vertex[joined.start[ends + 1] - 1]]))
+    first, number = weld_exact(np.ascontiguousarray(file.xyz[:, vertex]))
+    doubled = np.bincount(number, minlength=len(first))[number] > 1
+    yield Notice.at(
+        "coincident_ends",
+        vertex[doubled],
+        "[end|ends] of polylines exactly at the place of another end with a vertex of its own; the curves stay apart",
+        "--weld exact joins them, and closes a curve that repeats its first point",
+    )
 
 
 def curve_notices(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None) -> list[Notice]:

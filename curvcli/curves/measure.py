@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -9,10 +10,13 @@ import numpy as np
 
 from ..errors import Notice
 from ..loading.model import Labels
+from ..plurals import agree
 from .collect import CurveSet, curve_notices
 from .darboux import Darboux
+from .densities import curvature, signed_curvature, torsion_density
 from .frames import Bishop, Frenet, twist, twist_error
 from .identities import Identity, identities
+from .links import Links, links
 from .loops import complete_sum, components, linking, pull, vector_area
 from .plane import PlaneCurves, plane_curves
 from .polygon import Floats
@@ -34,6 +38,22 @@ class CurveMeasures:
     def writhe(self) -> tuple[Floats, Floats]:
         """(m,) writhe in turns and the bound of its error."""
         return writhe(self.distinct, self.max_writhe)
+
+    @cached_property
+    def links(self) -> Links:
+        """Linking numbers of the pairs of closed curves."""
+        return links(self.distinct, self.max_writhe)
+
+    def links_table(self) -> dict[str, Any]:
+        """One row per pair of closed curves: their numbers, linking number and the bound of its error in turns."""
+        found = self.links
+        number = np.rint(np.where(found.known, found.number, 0.0)).astype(np.int32)
+        return {
+            "a": found.a.astype(np.int32),
+            "b": found.b.astype(np.int32),
+            "linking": np.ma.masked_array(number, ~found.known),
+            "linking_error": found.error,
+        }
 
     @cached_property
     def identities(self) -> list[Identity]:
@@ -59,7 +79,20 @@ class CurveMeasures:
             "`writhe_error` bounds the error in turns; the writhe jumps by two where a curve passes through itself",
         )
         told = curve_notices(self.found, repeated, back, refused, self.max_writhe)
-        return [*told, unsure] if unsure.count else told
+        return [*told, *(notice for notice in (unsure, *self._of_links()) if notice.count)]
+
+    def _of_links(self) -> Iterator[Notice]:
+        found = self.links
+        touching = np.flatnonzero(found.touching | (found.error > UNSURE))
+        yield Notice(
+            "linking_undefined",
+            len(touching),
+            agree(len(touching), "[pair|pairs] of closed curves that touch, or so nearly that rounding decides"),
+            "a linking number jumps where one curve passes through the other",
+            tuple(f"{found.a[k]}-{found.b[k]}" for k in touching[:5].tolist()),
+        )
+        refused = agree(found.refused, "[pair|pairs] of closed curves too large for [its|their] linking number")
+        yield Notice("linking_refused", found.refused, refused, "--max-writhe sets the limit of these double sums too")
 
     def _boundary_first(self, values: Floats | None, like: int) -> Floats:
         """Values of the boundary curves (or their vertices), then NaN for the polylines."""
@@ -147,7 +180,8 @@ class CurveMeasures:
     def points(self) -> dict[str, Any]:
         """One row per vertex of each curve; what belongs to an edge stands in the row of the vertex it leaves.
 
-        At vertices: turning ψ, sin2 = 2 sin(ψ/2), tan2 = 2 tan(ψ/2), Frenet normal and binormal; on boundary curves
+        At vertices: turning ψ, sin2 = 2 sin(ψ/2), tan2 = 2 tan(ψ/2), Frenet normal and binormal; per length curvature,
+        signed_curvature of plane curves and torsion_density (see `densities`); on boundary curves
         the angle kappa_g = π − Σθ and the components of the curvature vector T′ − T = −kappa_n ν + kappa_eta η.
         On edges: length, torsion, tangent, Bishop's bishop_u and bishop_v, Darboux's nu and eta.
         """
@@ -168,7 +202,10 @@ class CurveMeasures:
             "turning": self._rows(turning.angle),
             "sin2": self._rows(turning.sin2),
             "tan2": self._rows(turning.tan2),
+            "curvature": self._rows(curvature(turning)),
+            "signed_curvature": self._rows(signed_curvature(turning, self.plane)),
             "torsion": self._rows(frenet.torsion),
+            "torsion_density": self._rows(torsion_density(frenet)),
             "kappa_g": self._boundary_first(None if darboux is None else darboux.kappa_g, size),
             "kappa_n": self._boundary_first(None if darboux is None else darboux.kappa_n, size),
             "kappa_eta": self._boundary_first(None if darboux is None else darboux.kappa_eta, size),

@@ -82,7 +82,7 @@ def _corners(curves: Curves, xyz: Floats, chosen: Rows, edges: int) -> Floats:
 def _small(corners: Floats) -> tuple[Floats, Floats]:
     """Writhe of m curves of k edges, corners (3, m, k + 1)."""
     k = corners.shape[2] - 1
-    pairs = _pairs(corners, corners)
+    pairs = edge_pairs(corners, corners)
     apart = np.broadcast_to(np.triu(np.ones((k, k), bool), 2), pairs.angle.shape).copy()
     # The first and the last edge meet where the curve is closed.
     apart[(corners[:, :, 0] == corners[:, :, -1]).all(axis=0), 0, k - 1] = False
@@ -98,7 +98,7 @@ def _large(corners: Floats, closed: bool) -> tuple[float, float]:
         rows = corners[:, None, i : min(i + _ROWS, k) + 1]
         for j in range(i, k, _COLUMNS):
             columns = corners[:, None, j : min(j + _COLUMNS, k) + 1]
-            pairs, apart = _pairs(rows, columns), None
+            pairs, apart = edge_pairs(rows, columns), None
             if j < i + _ROWS + 2:
                 apart = np.arange(j, j + columns.shape[2] - 1) > np.arange(i, i + rows.shape[2] - 1)[:, None] + 1
             if closed and i == 0 and j + columns.shape[2] - 1 == k:
@@ -130,7 +130,7 @@ class _Pairs:
         return tuple(np.where(apart, part, 0).sum(axis) for part in parts)
 
 
-def _pairs(one: Floats, other: Floats) -> _Pairs:
+def edge_pairs(one: Floats, other: Floats) -> _Pairs:
     """Signed solid angle of the directions from each edge of `one` to each of `other`, and what is known of it.
 
     one: (3, m, r + 1) corners, other: (3, m, c + 1). The sum of the two triangles' half-angles is the argument of

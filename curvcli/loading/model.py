@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +18,34 @@ class Labels:
 
     codes: NDArray[np.int32]
     names: tuple[str, ...]
+
+
+class Polylines(Sequence[NDArray[np.int32]]):
+    """Vertex indices of all records one after the other, read as a sequence of records.
+
+    vertex: (n,). start: (m + 1,) where each record begins.
+    """
+
+    def __init__(self, vertex: NDArray[np.int32], start: NDArray[np.int64]) -> None:
+        self.vertex, self.start = vertex, start
+
+    @overload
+    def __getitem__(self, index: int) -> NDArray[np.int32]: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[NDArray[np.int32]]: ...
+
+    def __getitem__(self, index: int | slice) -> NDArray[np.int32] | list[NDArray[np.int32]]:
+        if isinstance(index, slice):
+            return [self[one] for one in range(*index.indices(len(self)))]
+        record = range(len(self))[index]
+        return self.vertex[self.start[record] : self.start[record + 1]]
+
+    def __len__(self) -> int:
+        return len(self.start) - 1
+
+
+NO_POLYLINES = Polylines(np.empty(0, np.int32), np.zeros(1, np.int64))
 
 
 @dataclass(frozen=True)
@@ -42,7 +72,7 @@ class MeshFile:
     vertex_properties: dict[str, NDArray[np.generic]] = field(default_factory=dict)
     polygon_properties: dict[str, NDArray[np.generic]] = field(default_factory=dict)
     polygon_labels: dict[str, Labels] = field(default_factory=dict)
-    polylines: tuple[NDArray[np.int32], ...] = ()
+    polylines: Polylines = NO_POLYLINES
     welded_to: NDArray[np.int32] | None = None
     path: str | None = None
     sha256: str | None = None

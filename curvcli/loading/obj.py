@@ -5,15 +5,13 @@ Texture coordinates, normals, materials and groups never split or reorder vertic
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
 from ..plurals import agree, number_of
 from .limits import check_faces
-from .model import Labels, MeshFile
+from .model import NO_POLYLINES, Labels, MeshFile, Polylines
 from .obj_lines import ObjLines, split_lines, tidy_lines
 from .obj_normals import corner_normals
 from .text import NEWLINE, Records, Untidy, decode, plain_lines
@@ -67,7 +65,7 @@ def _read(lines: ObjLines, max_faces: int | None, normals: bool) -> MeshFile:
         _int32_sizes(sizes, count),
         vertex_properties=colours,
         polygon_labels={kind: _label(before[at], names, keep) for kind, (at, names) in labels.items()},
-        polylines=_polylines(lines, is_l, is_v) if is_l.any() else (),
+        polylines=_polylines(lines, is_l, is_v) if is_l.any() else NO_POLYLINES,
         notices=tuple(notices),
         corner_normals=given,
     )
@@ -219,7 +217,7 @@ def _refuse_index(
     raise InputError(f"vertex index `{token}` found, {expected}", place=lines.place(line))
 
 
-def _polylines(lines: ObjLines, is_l: NDArray[np.bool_], is_v: NDArray[np.bool_]) -> tuple[NDArray[Any], ...]:
+def _polylines(lines: ObjLines, is_l: NDArray[np.bool_], is_v: NDArray[np.bool_]) -> Polylines:
     corners, sizes = _corners(lines, is_l, is_v)
-    ends = np.cumsum(np.broadcast_to(sizes, int(np.count_nonzero(is_l))))
-    return tuple(np.split(corners, ends[:-1]))
+    each = np.broadcast_to(np.asarray(sizes, np.int64), int(np.count_nonzero(is_l)))
+    return Polylines(corners, np.concatenate(([0], np.cumsum(each))))

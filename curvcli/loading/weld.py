@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..errors import InputError, Notice
 from ..slices import LONG, slices
 from ..threads import each
-from .model import MeshFile
+from .model import MeshFile, Polylines
 
 _CROWD = 200
 """Positions near a vertex, on average, of which a tolerance is too large for the mesh."""
@@ -40,7 +40,7 @@ def welded(mesh: MeshFile, weld: str | float) -> MeshFile:
     return replace(
         mesh,
         corners=lowest[mesh.corners],
-        polylines=tuple(lowest[line] for line in mesh.polylines),
+        polylines=Polylines(lowest[mesh.polylines.vertex], mesh.polylines.start),
         welded_to=to,
         notices=(*mesh.notices, notice) if len(merged) else mesh.notices,
     )

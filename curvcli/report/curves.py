@@ -61,14 +61,27 @@ class CurveRow(msgspec.Struct):
     repeated_points: int
 
 
+class LinkRow(msgspec.Struct):
+    """A pair of closed curves and their linking number; null where they touch or the double sum was refused."""
+
+    a: int
+    b: int
+    linking: int | None
+    linking_error: float | None
+
+
 class CurveReport(msgspec.Struct):
-    """The report of `curvcli curves`."""
+    """The report of `curvcli curves`.
+
+    links: of up to 100 closed curves every pair, of more those whose boxes meet; the linking number of all others is 0.
+    """
 
     schema_version: int
     curvcli: str
     input: Input
     conventions: dict[str, str | int | None]
     curves: list[CurveRow]
+    links: list[LinkRow]
     checks: list[CheckRow]
     warnings: list[Remark]
     configuration: Configured = msgspec.UNSET
@@ -83,6 +96,7 @@ def model(measures: CurveMeasures, *, weld: str = "none", unit: str | None = Non
         input=input_of(file, file.xyz.shape[1] if file else 0, 0),
         conventions={"weld": weld, "unit": unit, "max_writhe": measures.max_writhe},
         curves=rows(measures),
+        links=[LinkRow(*row) for row in zip(*map(_values, measures.links_table().values()), strict=True)],
         checks=[row for identity in measures.identities for row in _checks(identity)],
         warnings=remarks(measures.notices),
     )

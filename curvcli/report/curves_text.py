@@ -30,6 +30,11 @@ def show(report: CurveReport, verbose: int = 0) -> None:
     if len(report.curves) > SHOWN and not verbose:
         more = counted(len(report.curves) - SHOWN, "more curve")
         console.print(f"[dim]{more}; -v shows all, --json tells all of each[/dim]")
+    linked = [f"{row.a} and {row.b} ({row.linking:+d})" for row in report.links if row.linking]
+    if linked:
+        shown = linked if verbose else linked[:SHOWN]
+        more = f" and {len(linked) - len(shown)} more" if len(linked) > len(shown) else ""
+        console.print(f"linked curves: {', '.join(shown)}{more}")
     console.print(fitting(console, _checks(report.checks, verbose)))
     show_configuration(console, report.configuration)
     told = "Σψ: total curvature; writhe in turns; holonomy ≡ 2π · writhe. "

@@ -1,0 +1,167 @@
+"""Linking numbers of pairs of closed curves: the Gauss integral over both."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..blocks import EPSILON
+from ..errors import UsageError
+from .polygon import Curves, Floats, Mask, Rows
+from .writhe import MAX_EDGES, UNSURE, edge_pairs
+
+LISTED = 100
+"""Up to so many closed curves all pairs are listed; of more, those whose boxes meet."""
+
+MOST_PAIRS = 1_000_000
+"""Pairs of curves whose boxes are compared, and that are listed, at most."""
+
+# A block of pairs of edges whose temporaries stay in the second-level cache.
+_ROWS, _COLUMNS = 16, 1024
+
+
+@dataclass(frozen=True)
+class Links:
+    """Pairs of closed curves, in order.
+
+    a, b: (k,) numbers of the curves, a < b. number: (k,) linking number in turns as summed, NaN where it was not.
+    error: (k,) bound of its rounding error. touching: (k,) pairs that have a point in common. refused: pairs whose
+    double sum is too large, or pairs of boxes too many to be compared.
+    """
+
+    a: Rows
+    b: Rows
+    number: Floats
+    error: Floats
+    touching: Mask
+    refused: int
+
+    @property
+    def known(self) -> Mask:
+        """(k,) whether the integer is certain."""
+        near = np.abs(self.number - np.rint(self.number)) <= UNSURE
+        return (self.error <= UNSURE) & near & ~self.touching
+
+
+def links(curves: Curves, max_edges: int | None = MAX_EDGES) -> Links:
+    """Linking number (1/4π) ∬ (T × T′)·(x − x′)/|x − x′|³ of each pair of closed curves: half the signed crossings.
+
+    An integer, which changes sign with the direction of either curve and under reflection; 0 where the boxes of the
+    curves are apart, without a sum. Undefined where curves touch. Solid angles of pairs of edges as for the writhe.
+    curves: in E³, without repeated points. max_edges: pairs are summed from the smallest up while √Σ products of edges
+    ≤ max_edges. Time is that of the sums and of comparing the boxes, which is refused beyond MOST_PAIRS pairs.
+    Errors: UsageError for other dimensions. Source: Sullivan, Curves; Gauss, 1833.
+    """
+    if curves.dimension != 3:
+        raise UsageError(f"linking numbers need curves in E^3, not in E^{curves.dimension}")
+    closed = np.flatnonzero(curves.closed & (curves.edges > 1))
+    if len(closed) < 2:
+        nothing = np.empty(0)
+        return Links(*(np.empty(0, np.int64),) * 2, nothing, nothing, np.empty(0, bool), 0)
+    pairs = _candidates(curves, closed)
+    if pairs is None:
+        nothing = np.empty(0)
+        count = len(closed) * (len(closed) - 1) // 2
+        return Links(*(np.empty(0, np.int64),) * 2, nothing, nothing, np.empty(0, bool), count)
+    a, b, meet = pairs
+    touching = _touching(curves, a, b)
+    number = np.where(meet, np.nan, 0.0)
+    error = number.copy()
+    cost = curves.edges[a].astype(np.float64) * curves.edges[b]
+    wanted = np.flatnonzero(meet & ~touching)
+    wanted = wanted[np.argsort(cost[wanted], kind="stable")]
+    if max_edges is not None:
+        wanted = wanted[np.cumsum(cost[wanted]) <= float(max_edges) ** 2]
+    for pair in wanted.tolist():
+        number[pair], error[pair] = _sum(_corners(curves, int(a[pair])), _corners(curves, int(b[pair])))
+    refused = int(np.count_nonzero(meet & ~touching)) - len(wanted)
+    return Links(a, b, number, error, touching, refused)
+
+
+def _candidates(curves: Curves, closed: Rows) -> tuple[Rows, Rows, Mask] | None:
+    """Pairs in order and whether their boxes meet; all of few curves, of many those that meet, None of too many."""
+    low = np.stack([-curves.max(-x)[closed] for x in curves.xyz])
+    high = np.stack([curves.max(x)[closed] for x in curves.xyz])
+    if len(closed) <= LISTED:
+        one, other = np.triu_indices(len(closed), 1)
+    else:
+        order = np.argsort(low[0], kind="stable")
+        after = np.searchsorted(low[0][order], high[0][order], side="right")
+        counts = after - np.arange(1, len(order) + 1)
+        if counts.sum() > 64 * MOST_PAIRS:
+            return None
+        found = [_meeting(low, high, order, counts, block) for block in _blocks(counts)]
+        one, other = np.concatenate(found, axis=1)
+        rank = np.lexsort([other, one])
+        one, other = one[rank], other[rank]
+    return None if len(one) > MOST_PAIRS else (closed[one], closed[other], _meet(low, high, one, other))
+
+
+def _blocks(counts: Rows) -> Iterator[slice]:
+    """Runs of curves with about as many pairs each as fit into the cache."""
+    number = np.cumsum(counts) // (1 << 18)
+    ends = np.flatnonzero(np.diff(number, append=-1)) + 1
+    yield from map(slice, [0, *ends[:-1].tolist()], ends.tolist())
+
+
+def _meeting(low: Floats, high: Floats, order: Rows, counts: Rows, block: slice) -> Rows:
+    """(2, k) pairs whose boxes meet, of some curves in order with the `counts` that follow each."""
+    some = counts[block]
+    one = np.repeat(np.arange(block.start, block.stop), some)
+    other = one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(some) - some, some)
+    pairs = np.sort([order[one], order[other]], axis=0)
+    return np.asarray(pairs[:, _meet(low, high, *pairs)])
+
+
+def _meet(low: Floats, high: Floats, one: Rows, other: Rows) -> Mask:
+    """(k,) whether the boxes of two curves have a point in common."""
+    meet: Mask = np.logical_and.reduce((low[:, one] <= high[:, other]) & (low[:, other] <= high[:, one]))
+    return meet
+
+
+def _touching(curves: Curves, a: Rows, b: Rows) -> Mask:
+    """(k,) pairs of curves with a vertex at the same place."""
+    order = np.lexsort(curves.xyz + 0.0)
+    here, label = curves.xyz[:, order], curves.label[order]
+    found: set[tuple[int, int]] = set()
+    for step in range(1, curves.size):
+        same = (here[:, step:] == here[:, :-step]).all(axis=0)
+        if not same.any():
+            break
+        at = np.flatnonzero(same)
+        found.update(zip(label[at].tolist(), label[at + step].tolist(), strict=True))
+    if not found:
+        return np.zeros(len(a), bool)
+    return np.array([(i, j) in found or (j, i) in found for i, j in zip(a.tolist(), b.tolist(), strict=True)])
+
+
+def _corners(curves: Curves, curve: int) -> Floats:
+    """(3, 1, edges + 1) the corners of a closed curve, the first again at the end."""
+    xyz = curves.xyz[:, curves.start[curve] : curves.start[curve + 1]]
+    return np.concatenate([xyz, xyz[:, :1]], axis=1)[:, None]
+
+
+def _sum(one: Floats, other: Floats) -> tuple[float, float]:
+    """The linking number of two curves by their corners, and a bound of its error, in turns."""
+    one, other = _in_common(one, other)
+    k, m = one.shape[2] - 1, other.shape[2] - 1
+    sums = [
+        edge_pairs(one[..., i : i + _ROWS + 1], other[..., j : j + _COLUMNS + 1]).summed(None)
+        for i in range(0, k, _ROWS)
+        for j in range(0, m, _COLUMNS)
+    ]
+    total, bound, crossings = np.sum(sums, axis=0).tolist()
+    # A pair of edges that cross adds half a turn of one sign or the other.
+    return total / (4 * np.pi), (16 + np.log2(k * m)) * EPSILON * bound / (4 * np.pi) + crossings / 2
+
+
+def _in_common(one: Floats, other: Floats) -> tuple[Floats, Floats]:
+    """Both about one point, in units of 2 to a power, so that no square leaves the range of doubles."""
+    unit = 4 if max(np.abs(one).max(), np.abs(other).max()) >= 2.0**1020 else 0
+    one, other = np.ldexp(one, -unit), np.ldexp(other, -unit)
+    base = one[:, :, :1]
+    one, other = one - base, other - base
+    power = np.frexp(max(np.abs(one).max(), np.abs(other).max()))[1]
+    return np.ldexp(one, -power), np.ldexp(other, -power)
