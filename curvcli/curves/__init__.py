@@ -4,6 +4,7 @@ from .boundary import Boundary, boundary_loops
 from .curve import Curve
 from .frames import Bishop, Frenet, transport_angle, twist
 from .holonomy import normal_basis, normal_holonomy
+from .links import links
 from .loops import loop_table
 from .polygon import Curves
 from .turning import Turning
@@ -17,6 +18,7 @@ __all__ = [
     "Frenet",
     "Turning",
     "boundary_loops",
+    "links",
     "loop_table",
     "normal_basis",
     "normal_holonomy",
