@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 from .blocks import dot, span
 from .census import duplicate_faces, duplicate_vertices
 from .errors import Notice
-from .loading.weld import weld_exact
 from .plurals import agree, counted
 from .precision import is_single, last_place
+from .seams import closing, near_seam, welding
 from .solids.notices import of_solids
 from .surface import Surface
-from .topology import faces_at, find_edges
 
 # Rounding of the coordinates that moves K by more than this many radians is worth a warning: to doubles; and to
 # float32, which is what most files hold and what their users know, where it spoils K altogether.
@@ -140,6 +139,14 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
         "[vertex|vertices] at exactly the position of an earlier one",
         welding(surface) if len(vertices) else None,
     )
+    seam = near_seam(surface)
+    if seam is not None:
+        yield Notice.at(
+            "near_vertices",
+            seam.vertices,
+            "boundary vertices nearly coincide",
+            closing(surface, seam),
+        )
 
 
 def _winding(surface: Surface) -> Iterator[Notice]:
@@ -167,36 +174,6 @@ def _first_faces(surface: Surface, patches: NDArray[np.bool_]) -> NDArray[np.int
     if not patches.any():
         return np.empty(0, np.intp)
     return np.unique(surface.orientation.patch, return_index=True)[1][patches]
-
-
-def welding(surface: Surface) -> str:
-    """What `--weld exact` would do to the boundary, counted on the faces that it would touch."""
-    way_out = "--weld exact merges them"
-    old, boundary = surface.edges, int(np.count_nonzero(surface.boundary_edges))
-    if not boundary:
-        return way_out
-    first, number = weld_exact(surface.xyz_given)
-    lowest = first[number]
-    merged = np.zeros(surface.n_vertices, bool)
-    merged[lowest[surface.referenced & (lowest != np.arange(len(lowest)))]] = True
-    touched = merged[lowest]
-    # Edges without a merged end stay as they are, and all faces of the others are among the chosen.
-    ours = touched[old.a] | touched[old.b]
-    open_now, crowded_now = (int(np.count_nonzero(which & ours)) for which in (old.valence == 1, old.valence > 2))
-    if not open_now:
-        return f"{way_out}; none lies on the boundary"
-    faces = lowest[surface.faces[faces_at(surface.faces, touched)]]
-    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
-    new = find_edges(faces, surface.n_vertices)
-    ours = merged[new.a] | merged[new.b]
-    open_then, crowded_then = (int(np.count_nonzero(which & ours)) for which in (new.valence == 1, new.valence > 2))
-    words = way_out
-    if open_now > open_then:
-        closed = open_now - open_then
-        all_of = "all " if closed == boundary > 1 else ""
-        words = f"--weld exact would close {all_of}{counted(closed, 'boundary edge')}"
-    more = crowded_then - crowded_now
-    return f"{words}, and more than two faces would meet at {counted(more, 'edge')}" if more > 0 else words
 
 
 def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:

@@ -144,11 +144,13 @@ def position_keys(xyz: NDArray[np.float64]) -> NDArray[np.uint64]:
     return keys
 
 
-def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]:
+def weld_within(
+    xyz: NDArray[np.float64], tolerance: float, among: NDArray[np.bool_] | None = None
+) -> NDArray[np.int32]:
     """For each position the lowest index of its group: positions joined by steps of at most `tolerance` times the
     diagonal of the bounding box.
 
-    xyz: (3, n). Positions that are not finite stay alone.
+    xyz: (3, n). Positions that are not finite stay alone. among: (n,) the positions that may be joined, by default all.
     Errors: InputError where so many positions are that near to one another that their pairs would not fit in memory.
     """
     from scipy.spatial import cKDTree
@@ -160,16 +162,19 @@ def weld_within(xyz: NDArray[np.float64], tolerance: float) -> NDArray[np.int32]
     finite = np.flatnonzero(np.isfinite(xyz).all(0))
     if not len(finite):
         return lowest
+    low, high = xyz[:, finite].min(1), xyz[:, finite].max(1)
+    if among is not None:
+        finite = finite[among[finite]]
     first, number = weld_exact(xyz[:, finite])
     points = xyz[:, finite[first]]
     with np.errstate(over="ignore"):
-        extent = points.max(1) - points.min(1)
+        extent = high - low
     scale = extent.max()
     if not np.isfinite(scale) or scale == 0:
-        points, scale = points * 0.5**10, scale * 0.5**10
-        extent = points.max(1) - points.min(1)
+        points, scale, low, high = (x * 0.5**10 for x in (points, scale, low, high))
+        extent = high - low
         scale = extent.max() or 1.0
-    points = (points - points.min(1)[:, None]) / scale
+    points = (points - low[:, None]) / scale
     reach = tolerance * float(np.linalg.norm(extent / scale))
     tree, count = cKDTree(points.T), len(first)
     near = int(tree.count_neighbors(tree, reach)) // count

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..analysis import Analysis
 from ..census import census, classify
+from ..seams import way_to_close
 from ..solids.notices import kinds
 from ..surface import Surface
 from .base import requirement
@@ -20,7 +21,10 @@ from .places import edges, face_name, joined, located, vertices
 )
 def closed(analysis: Analysis) -> str:
     """No edge has only one face."""
-    return edges(analysis.surface, analysis.surface.boundary_edges, "with only one face")
+    surface = analysis.surface
+    found = edges(surface, surface.boundary_edges, "with only one face")
+    hint = way_to_close(surface) if found else ""
+    return f"{found}; {hint}" if hint else found
 
 
 @requirement(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 from tests.cases.test_gate import case
@@ -33,3 +35,24 @@ def test_the_warning_says_what_is_inside_out() -> None:
     for name, word in (("hollow_wrong.stl", "cavity"), ("two_second_inverted.stl", "body")):
         assert word in curvcli("check", case(name)).out
     assert "cross" in curvcli("check", case("overlapping_cubes.stl")).out
+
+
+@pytest.mark.parametrize(
+    ("folder", "name", "weld", "words"),
+    [
+        ("cases", "seam_gap_1e-4mm.stl", "2.1e-6", "closes all 4 boundary edges"),
+        ("cases", "seam_exact.obj", "exact", "would close all 48 boundary edges"),
+        ("meshes", "angle_block.STL", "1e-12", "closes all 166 boundary edges"),
+        ("meshes", "octagonal_pocket.ply", "1e-12", "closes all 54 boundary edges"),
+    ],
+)
+def test_the_tolerance_that_closes(folder: str, name: str, weld: str, words: str) -> None:
+    path = case(f"../{folder}/{name}")
+    checked = curvcli("check", path, "--require", "closed")
+    assert checked.code == 1
+    failure = next(line for line in checked.out.splitlines() if "closed fails" in line)
+    assert failure.endswith(f"; --weld {weld} {words}")
+    analysed = json.loads(curvcli("analyze", path, "-p", "topology", "--json").out)
+    assert f"--weld {weld} {words}" in [warning["hint"] for warning in analysed["warnings"]]
+    after = curvcli("check", path, "--require", "closed", "--weld", weld)
+    assert "closed fails" not in after.out
