@@ -170,7 +170,7 @@ class Curve:
         return normal_holonomy(self.points)
 
     def writhe(self, max_edges: int | None = MAX_EDGES) -> float:
-        """Writhe in turns.
+        """Writhe in turns; NaN where the bound of its rounding error exceeds a quarter.
 
         Errors: UsageError for more than max_edges edges: the double sum is quadratic in them.
         """

@@ -124,10 +124,9 @@ class _Pairs:
 
     def summed(self, apart: NDArray[np.bool_] | None, axis: tuple[int, ...] | None = None) -> tuple[Any, ...]:
         """Sums of the angles, of the conditions and of the crossings, over the pairs that are apart on the curve."""
-        parts = (self.angle, self.condition, np.zeros(1) if self.crossing is None else self.crossing)
-        if apart is None:
-            return tuple(part.sum(axis) for part in parts)
-        return tuple(np.where(apart, part, 0).sum(axis) for part in parts)
+        parts = (self.angle, self.condition, self.crossing)
+        kept = parts if apart is None else [None if part is None else np.where(apart, part, 0) for part in parts]
+        return tuple(0.0 if part is None else part.sum(axis) for part in kept)
 
 
 def edge_pairs(one: Floats, other: Floats) -> _Pairs:
