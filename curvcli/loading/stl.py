@@ -13,14 +13,21 @@ from ..slices import slices
 from .limits import check_faces
 from .model import MeshFile
 from .pieces import Pieces
+from .stl_tokens import read_ascii_tokens
 from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy, without_comments
 from .weld import weld_exact
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
 _TEXT = "it is text, and text that is STL begins with `solid`"
-_KEYWORD = re.compile(rb"(?<![ \n])[ \n]+(endsolid|facet|outer|vertex|endloop|endfacet)\b", re.IGNORECASE)
-_SHARED_LINE = re.compile(rb"[^\n] (?:facet|vertex)\b", re.IGNORECASE)
+# A name may hold any word, but no facet.
+_SHARED = re.compile(
+    rb"(?!(?:end)?solid\b).* facet(?: |$)|(?:end)?solid\b.* facet (?:normal|outer)(?: |$)", re.IGNORECASE
+)
+_VERTEX_BEHIND = re.compile(rb"(?im)^(?!(?:end)?solid\b).* vertex\b")
+# The least lengths of a line with a facet behind other words, and behind a facet.
+_FACET_BEHIND = len(b"solid facet outer")
+_FULL_FACET = len(b"facet outer loop vertex 0 0 0 vertex 0 0 0 vertex 0 0 0 endloop endfacet facet") - 1
 ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+solid\b", re.IGNORECASE)
 
 
@@ -106,43 +113,62 @@ def _read_ascii(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64]
     problem = None
     try:
         xyz, notices = _read_lines(text, max_faces)
-        if xyz.shape[1] or not _SHARED_LINE.search(text):
-            return xyz, notices
+    except Untidy:
+        pass
     except InputError as error:
-        if not _SHARED_LINE.search(text):
-            raise
         problem = error
-    # Several keywords share a line: give each its own, which costs the line numbers of the file.
+    else:
+        if all(notice.code != "unknown_statements" for notice in notices):
+            return xyz, notices
+        # Lines that begin with no keyword may continue a statement.
+        try:
+            whole, others = read_ascii_tokens(text, max_faces)
+        except InputError:
+            return xyz, notices
+        known = all(notice.code != "unknown_statements" for notice in others)
+        return (whole, others) if known and whole.shape == xyz.shape else (xyz, notices)
     try:
-        return _read_lines(_KEYWORD.sub(rb"\n\1", text).lstrip(b"\n"), max_faces, "statement")
+        return read_ascii_tokens(text, max_faces)
     except InputError as error:
-        raise problem or error from None
+        # Where each vertex has its own line, the count of them says more than the first wrong token.
+        raise (error if problem is None or _VERTEX_BEHIND.search(text) else problem) from None
 
 
-def _read_lines(
-    data: bytes, max_faces: int | None, unit: str = "line"
-) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
+def _share_lines(data: bytes, starts: NDArray[np.int64], first: NDArray[np.integer]) -> bool:
+    """Whether a facet begins behind another statement on its line; only lines that are long enough are looked at."""
+    room = np.full(256, _FACET_BEHIND)
+    room[list(b"fvoe")] = _FULL_FACET, len(data) + 1, len(b"outer loop"), len(b"endfacet")
+    lengths = np.diff(starts) - 1
+    for line in np.flatnonzero(lengths > room[first]).tolist():
+        if _SHARED.match(data, int(starts[line]), int(starts[line + 1]) - 1):
+            return True
+    return False
+
+
+def _read_lines(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
     starts = line_starts(np.frombuffer(data, np.uint8))
     first = np.frombuffer(data, np.uint8)[starts[:-1]] | 32  # lower case
+    if _share_lines(data, starts, first):
+        raise Untidy
     facets, vertices = np.flatnonzero(first == ord("f")), np.flatnonzero(first == ord("v"))
     check_faces(len(facets), max_faces)
     if not len(facets):
-        return np.empty((3, 0)), ()
-    _check_keywords(data, starts, facets, b"facet", unit)
-    _check_keywords(data, starts, vertices, b"vertex", unit)
-    _check_facets(facets, vertices, unit)
+        raise Untidy
+    _check_keywords(data, starts, facets, b"facet")
+    _check_keywords(data, starts, vertices, b"vertex")
+    _check_facets(facets, vertices)
     statements = first[(first != NEWLINE | 32) & (first != ord("s"))]
     if statements[-1] != ord("e"):
-        raise InputError("the data end inside a facet; `endfacet` expected", place=f"{unit} {len(first)}")
+        raise InputError("the data end inside a facet; `endfacet` expected", place=f"line {len(first)}")
     try:
         records = read_records(pick_lines(data, starts, first == ord("v")), np.float64)
     except Untidy as untidy:
         token, line = untidy.token.decode("utf-8", "backslashreplace"), int(vertices[untidy.row])
-        raise InputError(f"`{token}` found, a number expected", place=f"{unit} {line + 1}") from None
+        raise InputError(f"`{token}` found, a number expected", place=f"line {line + 1}") from None
     sizes = np.broadcast_to(records.sizes, len(vertices))
     if (sizes != 3).any():
         row = int(np.flatnonzero(sizes != 3)[0])
-        place = f"{unit} {int(vertices[row]) + 1}"
+        place = f"line {int(vertices[row]) + 1}"
         raise InputError(f"vertex with {number_of(int(sizes[row]), 'number')} found, 3 expected", place=place)
     notices = []
     solids = int(np.count_nonzero(first == ord("s")))
@@ -156,11 +182,11 @@ def _read_lines(
     unknown = np.flatnonzero(~np.isin(first, known))
     if len(unknown):
         message = agree(len(unknown), "[statement|statements] that STL does not know, ignored")
-        notices.append(Notice("unknown_statements", len(unknown), message, f"the first is in {unit} {unknown[0] + 1}"))
+        notices.append(Notice("unknown_statements", len(unknown), message, f"the first is in line {unknown[0] + 1}"))
     return np.ascontiguousarray(records.flat().reshape(-1, 3).T), tuple(notices)
 
 
-def _check_keywords(data: bytes, starts: NDArray[np.int64], lines: NDArray[np.intp], word: bytes, unit: str) -> None:
+def _check_keywords(data: bytes, starts: NDArray[np.int64], lines: NDArray[np.intp], word: bytes) -> None:
     """Refuses lines that begin as a keyword does but go on otherwise."""
     letters = np.frombuffer(data, np.uint8)
     wrong = np.zeros(len(lines), np.bool_)
@@ -170,16 +196,16 @@ def _check_keywords(data: bytes, starts: NDArray[np.int64], lines: NDArray[np.in
     if wrong.any():
         line = int(lines[np.flatnonzero(wrong)[0]])
         token = data[starts[line] : starts[line + 1]].split()[0][:40].decode("utf-8", "backslashreplace")
-        raise InputError(f"`{token}` found, `{word.decode()}` expected", place=f"{unit} {line + 1}")
+        raise InputError(f"`{token}` found, `{word.decode()}` expected", place=f"line {line + 1}")
 
 
-def _check_facets(facets: NDArray[np.intp], vertices: NDArray[np.intp], unit: str) -> None:
+def _check_facets(facets: NDArray[np.intp], vertices: NDArray[np.intp]) -> None:
     """Refuses facets that have not three vertices each."""
     if len(vertices) and vertices[0] < facets[0]:
-        raise InputError("vertex outside a facet found", place=f"{unit} {int(vertices[0]) + 1}")
+        raise InputError("vertex outside a facet found", place=f"line {int(vertices[0]) + 1}")
     per_facet = np.diff(np.searchsorted(vertices, facets), append=len(vertices))
     wrong = np.flatnonzero(per_facet != 3)
     if len(wrong):
         found = int(per_facet[wrong[0]])
-        place = f"{unit} {int(facets[wrong[0]]) + 1}"
+        place = f"line {int(facets[wrong[0]]) + 1}"
         raise InputError(f"facet with {number_of(found, 'vertex', 'vertices')} found, 3 expected", place=place)

@@ -1,0 +1,160 @@
+"""Text STL as tokens: facets wherever the lines end, and names and comments with any words."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError, Notice
+from ..plurals import agree
+from .limits import check_faces
+from .text import BLANK, NEWLINE, read_tokens, separates
+
+Places = NDArray[np.intp]
+
+# `facet normal x y z outer loop`, three times `vertex x y z`, `endloop endfacet`; the normal may be missing.
+_NORMAL, _VERTEX = 4, 4
+_FACETS = re.compile(rb"(?i)(?<=[ \n])facet (?:normal|outer) [^\n]*")
+_COMMENT = re.compile(rb" #[^\n]*")
+_PART = re.compile(rb"(?i)(?<![^ ])(?:outer loop|vertex|endloop|endfacet)(?![^ ])")
+_NAMES = (b"solid", b"endsolid")
+
+
+def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
+    """The corners (3, 3 F) of a tidy text, facet by facet: 21 tokens each, or 17 without a normal.
+
+    Names and comments stand between facets; they may hold any words but those of a whole facet.
+    Errors: InputError with the line of the first token that is not the one that a facet has there.
+    """
+    if b"#" in text:
+        # On the line of `solid`, whose name may hold the mark, a comment can only stand behind a facet.
+        text = _FACETS.sub(lambda found: _COMMENT.sub(b"", found[0]), text)
+    tokens = _Tokens.of(text)
+    every = np.arange(len(tokens.starts))
+    facets = every[tokens.are(every, b"facet")]
+    normal = tokens.are(facets + 1, b"normal")
+    begun = normal | tokens.are(facets + 1, b"outer") | (facets + 1 == len(every))
+    facets, normal = facets[begun], normal[begun]
+    loops = facets + 1 + _NORMAL * normal
+    expected = [(loops, b"outer"), (loops + 1, b"loop")]
+    expected += [(loops + 2 + _VERTEX * k, b"vertex") for k in range(3)]
+    expected += [(loops + 2 + _VERTEX * 3, b"endloop"), (loops + 3 + _VERTEX * 3, b"endfacet")]
+    first_wrong = np.full(len(facets), len(expected))
+    for k in reversed(range(len(expected))):
+        first_wrong[~tokens.are(*expected[k])] = k
+    whole = first_wrong == len(expected)
+    begin, end = facets[whole], loops[whole] + 4 + _VERTEX * 3
+    wrong = np.flatnonzero(~whole)
+    wrong = wrong[~tokens.in_name(facets[wrong], end)]
+    if len(wrong):
+        places, word = expected[first_wrong[wrong[0]]]
+        raise tokens.unexpected(int(places[wrong[0]]), word.decode())
+    check_faces(len(begin), max_faces)
+    notices = _between(tokens, begin, end)
+    corners = (loops[whole] + 3)[:, None] + np.arange(3) * _VERTEX
+    numbers = tokens.numbers((corners[:, :, None] + np.arange(3)).ravel())
+    return np.ascontiguousarray(numbers.reshape(-1, 3).T), tuple(notices)
+
+
+@dataclass(frozen=True)
+class _Tokens:
+    """A tidy text by its tokens. starts: where each begins; ends: which bytes separate them."""
+
+    text: bytes
+    data: NDArray[np.uint8]
+    starts: Places
+    ends: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, text: bytes) -> _Tokens:
+        data = np.frombuffer(text, np.uint8)
+        ends = separates(data)
+        first = ~ends
+        first[1:] &= ends[:-1]
+        return cls(text, data, np.flatnonzero(first), ends)
+
+    def are(self, places: Places, word: bytes) -> NDArray[np.bool_]:
+        """Which of the tokens are this word, in any case."""
+        same = places < len(self.starts)
+        if not same.any():
+            return same
+        at = self.starts[np.minimum(places, len(self.starts) - 1)]
+        for k, letter in enumerate(word):
+            same &= (self.data.take(at + k, mode="clip") | 32) == letter
+        return np.asarray(same & self.ends.take(at + len(word), mode="clip"))
+
+    def numbers(self, places: Places) -> NDArray[np.float64]:
+        """The tokens at these ascending places as numbers."""
+        if not len(places):
+            return np.empty(0)
+        wanted = np.zeros(len(self.starts), np.bool_)
+        wanted[places] = True
+        kept = np.zeros(len(self.data), np.bool_)
+        kept[self.starts[0] :] = np.repeat(wanted, np.diff(self.starts, append=len(self.data)))
+        kept[1:] &= ~(self.ends[1:] & self.ends[:-1])
+        numbers, known = read_tokens(bytes(np.where(self.data[kept] == BLANK, NEWLINE, self.data[kept])), np.float64)
+        if not known.all():
+            raise self.unexpected(int(places[np.flatnonzero(~known)[0]]), "")
+        return np.asarray(numbers, np.float64)
+
+    def in_name(self, places: Places, end: Places) -> NDArray[np.bool_]:
+        """Which tokens stand behind `solid` or `endsolid` on their line, with no end of a facet between them."""
+        every = np.arange(len(self.starts))
+        named = np.append(-1, every[self.are(every, _NAMES[0]) | self.are(every, _NAMES[1])])
+        name = named[np.searchsorted(named, places) - 1]
+        since = np.append(0, end)[np.searchsorted(end, places, side="right")]
+        newlines = np.flatnonzero(self.data == NEWLINE)
+        lines = [np.searchsorted(newlines, self.starts[np.maximum(some, 0)]) for some in (name, places)]
+        return np.asarray((name >= since) & (lines[0] == lines[1]))
+
+    def line(self, offset: int) -> str:
+        """The line of a byte."""
+        return f"line {1 + self.text.count(bytes([NEWLINE]), 0, offset)}"
+
+    def unexpected(self, place: int, word: str) -> InputError:
+        """The error for a token that is not this word, or no number where there is no word."""
+        asked = f"`{word}` expected" if word else "a number expected"
+        if place >= len(self.starts):
+            return InputError(f"the data end inside a facet; {asked}", place=self.line(int(self.starts[-1])))
+        offset = int(self.starts[place])
+        found = self.text[offset : offset + 200].split()[0][:40].decode("utf-8", "backslashreplace")
+        return InputError(f"`{found}` found, {asked}", place=self.line(offset))
+
+
+def _between(tokens: _Tokens, begin: Places, end: Places) -> list[Notice]:
+    """The notices of the text outside facets: ends and names of solids, and lines that are neither.
+
+    Errors: InputError for a part of a facet there.
+    """
+    text, bounds = tokens.text, np.append(tokens.starts, len(tokens.text))
+    left, right = np.concatenate(([0], end)), np.append(begin, len(tokens.starts))
+    solids, unknown, last = 0, 0, b""
+    for gap in np.flatnonzero(left < right).tolist():
+        offset = int(bounds[left[gap]])
+        last = text[offset : bounds[right[gap]]].lower()
+        named = False
+        for line in last.splitlines(keepends=True):
+            words = line.split(None, 1)
+            is_name = bool(words) and words[0] in _NAMES
+            found = None if is_name and b" outer loop " not in line else _PART.search(line.replace(b"\n", b" "))
+            if found:
+                part = found[0].split()[0].decode()
+                raise InputError(f"`{part}` outside a facet found", place=tokens.line(offset + found.start()))
+            named |= is_name
+            unknown += bool(words) and not is_name
+            offset += len(line)
+        solids += named and gap < len(begin)
+    notices = []
+    if solids > 1:
+        hint = "`components` of the report keeps apart those that do not touch"
+        notices.append(Notice("several_solids", solids, "solids, read as one surface", hint))
+    if len(begin) and not (left[-1] < right[-1] and b"endsolid" in last):
+        hint = "if it was cut off, faces are missing"
+        notices.append(Notice("missing_endsolid", 1, "text that ends without `endsolid`", hint))
+    if unknown:
+        message = agree(unknown, "[statement|statements] that STL does not know, ignored")
+        notices.append(Notice("unknown_statements", unknown, message))
+    return notices
