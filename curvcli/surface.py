@@ -253,11 +253,6 @@ class Surface(Incidence):
         """(F,) six times the volume that each face, as the file winds it, spans with a point of its component."""
         return triple_products(self, self.components.face)
 
-    @property
-    def face_volumes(self) -> NDArray[np.float64]:
-        """(F,) volume of the tetrahedron that each face, as the file winds it, spans with a point of its component."""
-        return self.triple_products / 6
-
     # ------------------------------------------------------------------ pieces
 
     @cached_property

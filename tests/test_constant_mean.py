@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from functools import cache
 
@@ -10,6 +11,8 @@ import pytest
 
 import curvcli
 from curvcli.analysis import Analysis
+from curvcli.differences import Tolerance, compare_reports
+from curvcli.report.stored import decode
 from curvcli.requirements import parse
 from curvcli.samples.catalogue import specs
 from tests import meshes
@@ -202,3 +205,14 @@ def test_components_and_reversal(name: str) -> None:
         assert piece["cmc"]["residual_max"] / factor == pytest.approx(report["cmc"]["residual_max"], rel=1e-11)
         density = report["minimal"]["H_vec_density_max"]
         assert piece["minimal"]["H_vec_density_max"] * factor == pytest.approx(density, rel=1e-12)
+
+
+def test_reports_without_the_densities_are_still_read() -> None:
+    report = of(meshes.torus()).report()
+    older = {**report, "components": []}
+    for section in ("cmc", "minimal"):
+        older[section] = {key: value for key, value in report[section].items() if "density" not in key}
+        assert len(older[section]) < len(report[section])
+    assert decode(json.dumps(older).encode())["cmc"] == older["cmc"]
+    found, _ = compare_reports(older, {**report, "components": []}, Tolerance())
+    assert [one.key for one in found] == ["cmc.residual_density_max", "minimal.H_vec_density_max"]

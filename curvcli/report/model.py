@@ -71,14 +71,14 @@ class Cmc(msgspec.Struct):
 
     H: float | None
     residual_max: float | None
-    residual_density_max: float | None
+    residual_density_max: float | msgspec.UnsetType | None = msgspec.UNSET  # absent in older reports
 
 
 class Minimal(msgspec.Struct):
     """Nearness to a minimal surface: the largest |H_p| and the largest |H_p|/A_p over vertices off the boundary."""
 
     H_vec_max: float | None
-    H_vec_density_max: float | None
+    H_vec_density_max: float | msgspec.UnsetType | None = msgspec.UNSET  # absent in older reports
 
 
 class Steiner(msgspec.Struct):
