@@ -16,6 +16,7 @@ from .precision import is_single, last_place
 from .seams import closing, near_seam, welding
 from .solids.notices import of_solids
 from .surface import Surface
+from .walls import WALL, facing_pairs
 
 # Rounding of the coordinates that moves K by more than this many radians is worth a warning: to doubles; and to
 # float32, which is what most files hold and what their users know, where it spoils K altogether.
@@ -126,11 +127,21 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
         if together.any()
         else "remesh there: [its|their] corners lie on a line",
     )
+    twice, pairs = duplicate_faces(surface), facing_pairs(surface)
     yield Notice.at(
         "duplicate_faces",
-        duplicate_faces(surface),
+        twice,
         "[face|faces] with the same corners as an earlier one",
-        "remove [it|them] unless both sides are meant: each adds to area and angles",
+        "see facing_faces: each side of a common wall belongs to its body"
+        if len(twice) == len(pairs)
+        else "remove [it|them] unless both sides are meant: each adds to area and angles",
+    )
+    yield Notice.at(
+        "facing_faces",
+        pairs[:, 1],
+        f"[pair|pairs] of coincident faces [faces|face] each other: {WALL}",
+        "unite the bodies, which removes the wall, or write each to a file of its own; "
+        "`curvcli check --allow manifold,no-duplicate-faces` accepts it",
     )
     vertices = duplicate_vertices(surface)
     yield Notice.at(

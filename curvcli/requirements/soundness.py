@@ -7,8 +7,9 @@ import numpy as np
 from ..analysis import Analysis
 from ..census import duplicate_faces, duplicate_vertices
 from ..plurals import counted
+from ..walls import told
 from .base import requirement
-from .places import faces, joined, located, vertices
+from .places import explained, faces, joined, located, vertices
 
 # Faces that the reader or the surface dropped, which no later count sees.
 _DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
@@ -31,7 +32,9 @@ def no_degenerate(analysis: Analysis) -> str:
 @requirement("no-duplicate-faces", remedy="remove the later of each two: both add to areas and angles")
 def no_duplicate_faces(analysis: Analysis) -> str:
     """No two faces have the same corners."""
-    return faces(analysis.surface, duplicate_faces(analysis.surface), "with the corners of an earlier one")
+    surface = analysis.surface
+    found = faces(surface, duplicate_faces(surface), "with the corners of an earlier one")
+    return explained(found, told(surface))
 
 
 @requirement("no-unreferenced", remedy="remove them from the file; they change no value")

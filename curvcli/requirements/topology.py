@@ -11,8 +11,9 @@ from ..census import census, classify
 from ..seams import way_to_close
 from ..solids.notices import kinds
 from ..surface import Surface
+from ..walls import told
 from .base import requirement
-from .places import edges, face_name, joined, located, vertices
+from .places import edges, explained, face_name, joined, located, vertices
 
 
 @requirement(
@@ -23,8 +24,7 @@ def closed(analysis: Analysis) -> str:
     """No edge has only one face."""
     surface = analysis.surface
     found = edges(surface, surface.boundary_edges, "with only one face")
-    hint = way_to_close(surface) if found else ""
-    return f"{found}; {hint}" if hint else found
+    return explained(found, way_to_close(surface) if found else "")
 
 
 @requirement(
@@ -36,10 +36,11 @@ def manifold(analysis: Analysis) -> str:
     """Every edge has at most two faces and every star is one fan."""
     surface = analysis.surface
     split = np.flatnonzero(surface.split_stars)
-    return joined(
+    found = joined(
         edges(surface, surface.nonmanifold_edges, "with more than two faces"),
         vertices(split, "whose star is not one fan", "whose stars are not one fan"),
     )
+    return explained(found, told(surface))
 
 
 @requirement(

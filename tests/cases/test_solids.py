@@ -56,3 +56,14 @@ def test_the_tolerance_that_closes(folder: str, name: str, weld: str, words: str
     assert f"--weld {weld} {words}" in [warning["hint"] for warning in analysed["warnings"]]
     after = curvcli("check", path, "--require", "closed", "--weld", weld)
     assert "closed fails" not in after.out
+
+
+def test_a_common_wall_is_explained() -> None:
+    name, words = "multibody_touching.stl", "2 pairs of coincident faces face each other: bodies with a common wall"
+    checked = curvcli("check", case(name))
+    assert checked.code == 1
+    failed = [line for line in checked.out.splitlines() if " fails: " in line]
+    assert len(failed) == 2
+    assert all(line.endswith(words) for line in failed)
+    assert f"facing_faces: {words}" in checked.out
+    assert float(curvcli("analyze", case(name), "--get", "totals.volume").out) == 2000
