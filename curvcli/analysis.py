@@ -25,7 +25,7 @@ from .pipeline import at_scales, defaults, evaluate, prepare, presented, resolve
 from .precision import precision
 from .regions import Regions, cut_apart, find_regions
 from .regions import findings as region_findings
-from .resolution import unscaled
+from .resolution import beside, of_stars, unscaled
 from .settings import DEFAULTS, Settings, parse_scales
 from .surface import Surface
 from .totals import lost, lost_totals, summed, totals
@@ -68,6 +68,7 @@ class Analysis:
             *_ALWAYS,
             *self._totalled,
             *self._flags,
+            *beside(chosen),
             *(need for rule in self._rules for need in rule.needs),
         }
         prepare(surface, wanted, conventions.area)
@@ -186,7 +187,7 @@ class Analysis:
     @cached_property
     def _findings(self) -> list[Notice]:
         found = findings.of_surface(self.surface, self.columns)
-        found += findings.out_of_range(self._lost)
+        found += [*of_stars(self.surface, self.columns, self.chosen, self.totals), *findings.out_of_range(self._lost)]
         if self.cut is not None and self.regions is not None:
             found += region_findings(self.cut.surface, self.cut_groups, self.regions)
         return found

@@ -116,6 +116,7 @@ def _columns(report: Report) -> Iterator[Table]:
     for digits, unit, statistics in (
         (4, True, ("min", "median", "max", "mean")),
         (3, True, ("min", "median", "max", "mean")),
+        (2, True, ("min", "median", "max", "mean")),
         (3, False, ("min", "median", "max", "mean")),
         (3, False, ("min", "median", "max")),
         (2, False, ("min", "max")),

@@ -63,3 +63,14 @@ def test_rounding_has_one_colour(name: str, tmp_path: Path) -> None:
     assert ("h_signed: 0 length⁻¹ within rounding wherever defined" in lines[1]) == flat
     assert "within rounding" in lines[1]
     assert "clamped_radicand" not in warnings(name)
+
+
+def test_smooth_energies_of_a_rough_mesh() -> None:
+    plain = report("gyroid_cell_mc.stl")
+    (told,) = (one for one in plain["warnings"] if one["code"] == "rough_energy")
+    assert "willmore = 11.2" in told["message"]
+    scaled = report("gyroid_cell_mc.stl", "-p", "willmore_corrected,willmore_ring,willmore_fit", "--rings", "2")
+    assert scaled["totals"]["willmore_corrected"] == pytest.approx(0.158, abs=0.001)
+    assert "rough_energy" not in {one["code"] for one in scaled["warnings"]}
+    assert "rough_energy" not in warnings("umbilic.ply")
+    assert "creased" in warnings("plate_fillet_r1.5.stl")
