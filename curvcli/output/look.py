@@ -67,12 +67,13 @@ def parse_size(text: str | None) -> tuple[int, int] | None:
     raise UsageError(f"--size {text}: expected WxH with sides of {SMALLEST} to {LARGEST} pixels, as 1200x900")
 
 
-def check_look(look: Look, panels: int = 1) -> None:
+def check_look(look: Look, panels: int = 1, *, surface: bool = True) -> None:
     """Refuse, before any work, what cannot be drawn: a missing library, an unknown colour or view, too small a size.
 
+    surface: whether the surface is drawn, not only histograms.
     Errors: UsageError; MissingExtraError without the libraries that draw.
     """
-    require_pictures()
+    require_pictures(surface)
     parse_view(look.view)
     background_rgb(look.background)
     arrange(max(1, panels), look.size, (4, 3))
@@ -115,9 +116,12 @@ def background_rgb(color: str) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def require_pictures() -> None:
-    """MissingExtraError where the libraries that draw are not installed."""
-    _require("pictures need", "pyvista", "matplotlib")
+def require_pictures(surface: bool = True) -> None:
+    """MissingExtraError where the libraries that draw a surface, or only histograms, are not installed."""
+    if surface:
+        _require("pictures need", "pyvista", "matplotlib")
+    else:
+        _require("histograms need", "matplotlib")
 
 
 def require_vtk() -> None:

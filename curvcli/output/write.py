@@ -143,13 +143,10 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     suffixes = set(suffixes)
     pictures = suffixes & {".png", ".hist.png"}
     if pictures:
-        check_look(appearance.look, max(len(_panels(appearance, chosen, suffix)) for suffix in pictures))
+        panels = max(len(_panels(appearance, chosen, suffix)) for suffix in pictures)
+        check_look(appearance.look, panels, surface=".png" in pictures)
     if suffixes & {".vtp", ".vtu"}:
         require_vtk()
-    if ".html" in suffixes:
-        from .html.page import require
-
-        require()
     if appearance.precision != "shortest":
         from .tables import parse_precision
 
@@ -219,7 +216,7 @@ def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance
     """Draw the surface or the histograms; what is to be said of each column, a line each."""
     from .legend import sentence
 
-    require_pictures()
+    require_pictures(suffix != ".hist.png")
     # What such imports leave behind refers to the frames below it, and those here to the analysis.
     import_apart("matplotlib.figure", *(() if suffix == ".hist.png" else ("pyvista.plotting",)))
     shown = [colored(analysis, name, appearance) for name in _panels(appearance, analysis.chosen, suffix)]

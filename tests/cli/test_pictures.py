@@ -56,7 +56,10 @@ def test_what_cannot_be_drawn_is_refused_before_any_work(within: Run, options: l
     assert complaint in ended.complaint
 
 
-@pytest.mark.parametrize(("name", "needs"), [("x.png", "pictures need"), ("x.vtp", ".vtp and .vtu need")])
+@pytest.mark.parametrize(
+    ("name", "needs"),
+    [("x.png", "pictures need"), ("x.hist.png", "histograms need matplotlib"), ("x.vtp", ".vtp and .vtu need")],
+)
 def test_without_the_extra_the_way_to_install_it_is_told(
     within: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str, needs: str
 ) -> None:
@@ -68,6 +71,37 @@ def test_without_the_extra_the_way_to_install_it_is_told(
     assert ended.complaint.startswith(needs)
     assert ended.complaint.endswith("`pip install 'curvcli[pictures]'`")
     assert not (tmp_path / name).exists()
+
+
+def test_histograms_need_matplotlib_alone(tmp_path: Path) -> None:
+    code = """
+import sys
+for name in ("pyvista", "vtkmodules", "vtk"):
+    sys.modules[name] = None
+from curvcli.commands.main import main
+sys.exit(main())
+"""
+
+    def run(*outputs: str) -> subprocess.CompletedProcess[str]:
+        command = [
+            sys.executable,
+            "-c",
+            code,
+            "analyze",
+            DISK,
+            "-q",
+            *(part for name in outputs for part in ("-o", name)),
+        ]
+        return subprocess.run(command, cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=120)
+
+    done = run("x.hist.png")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "x.hist.png").read_bytes().startswith(PNG)
+    done = run("y.hist.png", "y.png")
+    assert done.returncode == 2
+    assert "pictures need pyvista" in done.stderr
+    assert "matplotlib" not in done.stderr
+    assert not (tmp_path / "y.hist.png").exists()
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere OpenGL is part of the system")

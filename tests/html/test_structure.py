@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
+import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +14,7 @@ import pytest
 
 import curvcli
 from curvcli.output.camera import frame
+from curvcli.output.html import engine as engines
 from curvcli.output.html import page as pages
 from curvcli.output.html.engine import engine
 from tests.html.pages import HOSTILE, labelled, page_of, parsed
@@ -205,11 +209,49 @@ def test_the_same_analysis_gives_the_same_bytes() -> None:
     assert page_of(analysis) == page_of(analysis)
 
 
-def test_the_viewer_is_three_js_with_its_licence() -> None:
+# SHA-256 of build/three.min.js, examples/js/controls/TrackballControls.js and LICENSE of the npm package three 0.147.0.
+PINNED = {
+    "three.min.js": "f34446bf875b5fb0dcd93819ffe1d9e182d46634ee855f5d904c6c4ac7cdbc95",
+    "TrackballControls.js": "68efcc085c07621100745d50f0f8dd150f929cfd744b9a98a27e7e1e01ef76bc",
+    "LICENSE": "fbf3943930dacbf56aabb8dc5d816440bd16aa6f4cc78ddbdf12106ee1807832",
+}
+
+
+def test_the_viewer_is_three_js_as_npm_has_it_with_its_licence() -> None:
+    folder = Path(str(engines.__file__)).parent / "three"
+    found = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.iterdir()}
+    assert found == PINNED
     code = engine()
-    assert "Three.js Authors" in code
+    assert 'const e="147"' in code[:2000]
+    assert engines.VERSION.split(".")[1] == "147"
+    assert " ".join((folder / "LICENSE").read_text("utf-8").split()) in " ".join(code.split())
     assert "SPDX-License-Identifier: MIT" in code
     assert "GLTFLoader" not in code
+    assert "</script" not in code.lower()
+    assert "\r" not in code
+    assert len(code) < 700_000
+
+
+def test_the_viewer_has_what_the_page_uses() -> None:
+    code = engine()
+    scene = (Path(str(pages.__file__)).parent / "templates" / "scene.js").read_text("utf-8")
+    names = set(re.findall(r"THREE\.(\w+)", scene))
+    assert len(names) > 15
+    assert [name for name in sorted(names) if f"t.{name}=" not in code and f"THREE.{name} =" not in code] == []
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_the_viewer_defines_three_as_a_plain_script(tmp_path: Path) -> None:
+    (tmp_path / "engine.js").write_text(engine(), "utf-8")
+    code = """
+const vm = require("vm"), fs = require("fs");
+const context = vm.createContext({ console: { warn: (text) => { throw new Error(text); } } });
+vm.runInContext(fs.readFileSync("engine.js", "utf-8"), context);
+const found = vm.runInContext("[THREE.REVISION, typeof THREE.TrackballControls, typeof THREE.WebGLRenderer]", context);
+console.log(JSON.stringify(found));
+"""
+    done = subprocess.run(["node", "-e", code], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=True)
+    assert done.stdout.strip() == '["147","function","function"]'
 
 
 def test_of_very_many_pieces_the_first_are_listed_and_all_are_counted() -> None:

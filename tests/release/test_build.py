@@ -39,6 +39,9 @@ def test_the_wheel_holds_the_package_and_nothing_else(built: Built) -> None:
     assert inside == package
     assert "curvcli/py.typed" in inside
     assert {f"curvcli/schemas/{name}.schema.json" for name in SCHEMAS} <= inside
+    assert {
+        f"curvcli/output/html/three/{name}" for name in ("three.min.js", "TrackballControls.js", "LICENSE")
+    } <= inside
     assert {"curvcli/topics/conventions.txt", "curvcli/topics/python.txt"} <= inside
 
 
@@ -75,7 +78,7 @@ def test_the_version_stands_in_one_place(built: Built) -> None:
 def test_the_metadata(built: Built) -> None:
     said = metadata(built)
     assert said["License-Expression"] == "MIT"
-    assert said.get_all("License-File") == ["LICENSE"]
+    assert said.get_all("License-File") == ["LICENSE", "curvcli/output/html/three/LICENSE"]
     assert said["Requires-Python"] == ">=3.11"
     assert said["Summary"]
     assert said["Description-Content-Type"] == "text/markdown"

@@ -1,31 +1,21 @@
-"""The viewer: three.js with its trackball, as the page of trimesh's own viewer has them."""
+"""The viewer's library: three.js and its trackball, as the npm package three has them, with their licence."""
 
 from __future__ import annotations
 
-import zipfile
-from importlib.util import find_spec
-from pathlib import Path
+from functools import cache
+from importlib.resources import files
 
-from ...errors import MissingExtraError
+VERSION = "0.147.0"
+"""Of the npm package: the last that has the trackball as a script that needs no modules."""
 
-_PLACE, _MEMBER = "resources/templates/viewer.zip", "viewer.html.template"
-# Its script is the library, then the trackball, then loaders and the page's own code, which are not wanted here.
-_START, _END = "/**\n * @license", "(function(){class GLTFLoader"
+# The files of the package, unchanged: build/three.min.js and examples/js/controls/TrackballControls.js.
+SCRIPTS = ("three.min.js", "TrackballControls.js")
+LICENSE = "LICENSE"
 
 
+@cache
 def engine() -> str:
-    """The library as JavaScript; it defines THREE with THREE.TrackballControls.
-
-    Errors: MissingExtraError for a trimesh that has another viewer.
-    """
-    spec = find_spec("trimesh")  # without importing it
-    folder = Path(spec.origin).parent if spec is not None and spec.origin is not None else Path()
-    try:
-        with zipfile.ZipFile(folder / _PLACE) as archive:
-            page = archive.read(_MEMBER).decode("utf-8")
-        code = page[page.index(_START) : page.index(_END)]
-    except (OSError, KeyError, ValueError, zipfile.BadZipFile):
-        code = ""
-    if "THREE.TrackballControls=" not in code or "</script" in code:
-        raise MissingExtraError("-o .html: this trimesh has no viewer for it; `pip install 'trimesh>=5.2,<6'`")
-    return code
+    """The library as JavaScript behind the text of its licence; it defines THREE with THREE.TrackballControls."""
+    folder = files(__package__).joinpath("three")
+    notice, *code = (folder.joinpath(name).read_bytes().decode("utf-8") for name in (LICENSE, *SCRIPTS))
+    return "\n".join([f"/*! three.js {VERSION}\n\n{notice.strip()}\n*/", *code])

@@ -36,19 +36,9 @@ SURFACE_BYTES = 12_500_000
 MOST_VERTICES = 200_000
 
 
-def require() -> None:
-    """Refuse before any work what cannot be written.
-
-    Errors: MissingExtraError where trimesh has no viewer.
-    """
-    engine()
-
-
 def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], command: str | None) -> bytes:
     """The page of an analysis. colored: the columns that were asked for; the first is shown first.
     command: what made it, for a shell.
-
-    Errors: MissingExtraError.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
