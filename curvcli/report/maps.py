@@ -29,6 +29,14 @@ class Range(msgspec.Struct):
     nulls: int
 
 
+class Turned(msgspec.Struct):
+    """How many faces keep the way up of most of their patch, are turned over, and are neither: see `orientation`."""
+
+    kept: int
+    turned_over: int
+    undefined: int
+
+
 class Harmonic(msgspec.Struct):
     """The largest |∇_p E(f)| off the boundary, its vertex, and what rounding alone can make of it there."""
 
@@ -48,6 +56,8 @@ class MapReport(msgspec.Struct):
     sigma_1: Range
     sigma_2: Range
     nonconformality: Range
+    area_distortion: Range
+    orientation: Turned
     harmonic: Harmonic
     checks: list[CheckRow]
     warnings: list[Remark]
@@ -67,6 +77,8 @@ def model(f: SurfaceMap) -> MapReport:
         sigma_1=_range(f.sigma_1),
         sigma_2=_range(f.sigma_2),
         nonconformality=_range(f.nonconformality),
+        area_distortion=_range(f.area_distortion),
+        orientation=_turned(f.orientation),
         harmonic=Harmonic(or_none(residual), vertex, or_none(rounding)),
         checks=[CheckRow(**vars(check)) for check in f.checks],
         warnings=remarks(notices),
@@ -110,6 +122,8 @@ def _quantities(report: MapReport) -> Iterator[Table]:
         ("nonconformality", _text(totals["nonconformality"]), "E(f) − area f(M) = Σ ½ (σ₁ − σ₂)² area; 0 if conformal"),
         ("sigma_1", _between(report.sigma_1), "larger singular value per face"),
         ("sigma_2", _between(report.sigma_2), "smaller singular value per face, without sign"),
+        ("area_distortion", _between(report.area_distortion), "area of the image per area, σ₁ σ₂"),
+        ("orientation", f"{report.orientation.turned_over:,}", "faces that are turned over"),
         ("harmonic", _text(harmonic.residual_max), _where(harmonic)),
     )
     return with_sentences(
@@ -121,6 +135,10 @@ def _where(harmonic: Harmonic) -> str:
     if harmonic.vertex is None:
         return "max |∇_p E(f)|: no vertex off the boundary"
     return f"max |∇_p E(f)|, at vertex {harmonic.vertex}; rounding explains {_text(harmonic.rounding, 2)}"
+
+
+def _turned(sign: np.typing.NDArray[np.float64]) -> Turned:
+    return Turned(*(int(np.count_nonzero(mask)) for mask in (sign > 0, sign < 0, np.isnan(sign))))
 
 
 def _range(values: np.typing.NDArray[np.float64]) -> Range:

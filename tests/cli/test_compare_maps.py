@@ -13,6 +13,7 @@ import pytest
 from tests.cli.program import Ended
 
 Run = Callable[..., Ended]
+MORE = ("area_distortion", "orientation")
 
 
 @pytest.fixture
@@ -93,7 +94,7 @@ def test_tables(within: Run, square: Path, stretched: Path, tmp_path: Path) -> N
     assert frame.columns == [*("vertex", "x", "y", "z"), *(f"gradient_{x}" for x in "xyz"), "harmonic_residual"]
     assert frame["harmonic_residual"].to_list() == [None, None, None, None, 1.0]
     frame = pl.read_parquet(faces)
-    assert frame.columns == ["face", "sigma_1", "sigma_2", "nonconformality", "area", "image_area"]
+    assert frame.columns == ["face", "sigma_1", "sigma_2", "nonconformality", "area", "image_area", *MORE]
     # det = σ₁ σ₂ is the ratio of the areas.
     np.testing.assert_allclose(frame["sigma_1"] * frame["sigma_2"], frame["image_area"] / frame["area"], rtol=1e-14)
     assert frame["nonconformality"].sum() == pytest.approx(json.loads(report.read_text())["totals"]["nonconformality"])
@@ -141,3 +142,20 @@ def test_refused(within: Run, square: Path, tmp_path: Path) -> None:
     refused = within("compare", square, square, "--map", "-o", tmp_path / "v.csv")
     assert refused.code == 4
     assert (tmp_path / "v.csv").read_text() == "mine"
+
+
+def test_the_command_counts_them(within: Run, square: Path) -> None:
+    """The centre pulled out over an edge: that triangle is turned over."""
+    image = square.with_name("image.obj")
+    image.write_text(square.read_text().replace("v .5 .5 0", "v .5 -.25 0"))
+    code, out, _ = within("compare", square, image, "--map", "--json")
+    report = json.loads(out)
+    assert code == 0
+    assert report["orientation"] == {"kept": 3, "turned_over": 1, "undefined": 0}
+    assert report["area_distortion"] == {"min": 0.5, "max": 2.5, "nulls": 0}
+    (warning,) = report["warnings"]
+    assert (warning["code"], warning["count"], warning["examples"]) == ("turned_over_faces", 1, [0])
+    table = within("compare", square, image, "--map", "--table", "faces=-", "--format", "csv").out.splitlines()
+    assert table[0].split(",")[-2:] == ["area_distortion", "orientation"]
+    assert [row.split(",")[-1] for row in table[1:]] == ["-1", "1", "1", "1"]
+    assert "1 face that the map turns over" in within("compare", square, image, "--map").out
