@@ -38,9 +38,14 @@ class SurfaceMap:
     Source: Sullivan, Discrete surfaces; Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates.
     """
 
+    # Of texture maps: edges along which the image is cut, and what a report calls the image.
+    seams: int | None = None
+    image_name: str | None = None
+
     def __init__(self, source: Any, image: Any) -> None:
         self.source = as_surface(source)
         self.image = _on_same_faces(self.source, image)
+        self.source_vertices = self.source.n_vertices
         self.configuration: Configuration | None = None
 
     # ------------------------------------------------------------------ columns

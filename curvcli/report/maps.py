@@ -46,12 +46,16 @@ class Harmonic(msgspec.Struct):
 
 
 class MapReport(msgspec.Struct):
-    """The report of `curvcli compare --map`; what is undefined is null."""
+    """The report of `curvcli compare --map`; what is undefined is null.
+
+    seams: edges along which a texture is cut, null for a map to another mesh.
+    """
 
     schema_version: int
     curvcli: str
     source: Input
     image: Input
+    seams: int | None
     totals: dict[str, float | None]
     sigma_1: Range
     sigma_2: Range
@@ -68,11 +72,15 @@ def model(f: SurfaceMap) -> MapReport:
     """The report of a map."""
     residual, vertex, rounding = f.harmonic
     notices = [*f.source.notices, *f.image.notices, *f.notices]
+    image = input_of(f.image.file, f.image.n_vertices, f.image.n_faces)
+    if f.image_name is not None:
+        image.path = f.image_name
     return MapReport(
         schema_version=1,
         curvcli=__version__,
-        source=input_of(f.source.file, f.source.n_vertices, f.source.n_faces),
-        image=input_of(f.image.file, f.image.n_vertices, f.image.n_faces),
+        source=input_of(f.source.file, f.source_vertices, f.source.n_faces),
+        image=image,
+        seams=f.seams,
         totals={name: or_none(value) for name, value in f.totals.items()},
         sigma_1=_range(f.sigma_1),
         sigma_2=_range(f.sigma_2),
@@ -97,7 +105,7 @@ def show(f: SurfaceMap) -> None:
     report = model(f)
     console = report_console(100)
     names = (escape(side.path or "arrays in memory") for side in (report.source, report.image))
-    console.print(f"[bold]{' → '.join(names)}[/bold]  V {f.source.n_vertices:,}  F {f.source.n_faces:,}")
+    console.print(f"[bold]{' → '.join(names)}[/bold]  V {f.source_vertices:,}  F {f.source.n_faces:,}")
     for remark in report.warnings:
         console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}")
     show_configuration(console, report.configuration)
