@@ -98,8 +98,7 @@ class Analysis:
     @cached_property
     def _flags(self) -> list[str]:
         """Hidden flags on the way to the chosen columns: what they mark is reported."""
-        flags = (name for name in self._closure if passes.quantity(name).kind == "flag")
-        return at_scales(flags, self.settings)
+        return [name for name in self._closure if passes.quantity(name).kind == "flag"]
 
     def _applicable_rules(self) -> list[Any]:
         """Checks whose needs the chosen passes meet."""

@@ -11,6 +11,7 @@ import polars as pl
 from ..forks import require_threads
 from ..memory import require_polars
 from ..output.atomic import Outputs
+from ..printable import in_cell
 from ..report.model import Topology
 from .model import CSV, PARQUET, Row
 
@@ -27,7 +28,9 @@ def write_summary(folder: str, rows: Sequence[Row]) -> None:
     paths = [os.path.join(folder, name) for name in (CSV, PARQUET)]
     with Outputs(paths, force=True) as outputs:
         with outputs.open(paths[0]) as stream:
-            table.write_csv(cast("IO[bytes]", stream))
+            words = [name for name, dtype in table.schema.items() if dtype == pl.String]
+            safe = [pl.Series(name, [word and in_cell(word) for word in table[name]], pl.String) for name in words]
+            table.with_columns(safe).write_csv(cast("IO[bytes]", stream))
         with outputs.open(paths[1]) as stream:
             table.write_parquet(cast("IO[bytes]", stream))
 

@@ -191,8 +191,9 @@ def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> No
             if row.error is not None:
                 say(row.error)
         return
-    from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    from ..report.console import Console
 
     columns = (
         *(TextColumn("meshes"), BarColumn(), MofNCompleteColumn()),
@@ -216,7 +217,7 @@ def _tell(batch: Batch, begun: int) -> None:
     from rich.table import Table
 
     from ..report.configuration import configured
-    from ..report.console import Console, show_configuration
+    from ..report.console import Console, escape, show_configuration
 
     counts = Counter((row.status, row.exit_code) for row in batch.rows)
     table = Table(box=box.SIMPLE_HEAD)
@@ -225,7 +226,7 @@ def _tell(batch: Batch, begun: int) -> None:
     table.add_column("meshes", justify="right")
     for (status, code), count in sorted(counts.items()):
         table.add_row(status.replace("_", " "), str(code), f"{count:,}")
-    console = Console(highlight=False)
+    console = Console()
     console.print(table)
     show_configuration(console, configured(batch.settings.configuration))
     missing = len(batch.items) - len(batch.rows)
@@ -233,4 +234,4 @@ def _tell(batch: Batch, begun: int) -> None:
     parts = [f"{len(batch.rows):,} of {counted(len(batch.items), 'mesh', 'meshes')}"]
     parts += [f"{kept:,} unchanged since an earlier run"] * bool(kept)
     parts += [f"{missing:,} left for --resume"] * bool(missing)
-    console.print(f"{', '.join(parts)}; {os.path.join(batch.folder, 'summary.csv')}", soft_wrap=True)
+    console.print(f"{', '.join(parts)}; {escape(os.path.join(batch.folder, 'summary.csv'))}", soft_wrap=True)

@@ -25,9 +25,9 @@ def phase(name: str, quiet: bool) -> Iterator[Phase]:
         if quiet or not sys.stderr.isatty():
             yield timed
         else:
-            from rich.console import Console
+            from ..report.console import Console, escape
 
-            with Console(stderr=True).status(name):
+            with Console(stderr=True).status(escape(name)):
                 yield timed
     finally:
         timed.seconds = time.perf_counter() - start

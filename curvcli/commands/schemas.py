@@ -17,6 +17,7 @@ import msgspec
 
 from .._version import __version__
 from ..batch.model import Row
+from ..printable import in_json
 from ..report.accuracy import Accuracy
 from ..report.check import CheckReport
 from ..report.curves import CurveReport
@@ -79,7 +80,8 @@ def write() -> None:
 
 def say(name: str) -> None:
     """Print one on stdout."""
-    click.echo(json.dumps(json.loads(SCHEMAS[name].printed()), indent=2, ensure_ascii=False))
+    text = json.dumps(json.loads(SCHEMAS[name].printed()), indent=2, ensure_ascii=False)
+    click.echo(in_json(text.encode("utf-8")).decode("utf-8"))
 
 
 if __name__ == "__main__":

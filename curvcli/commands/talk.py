@@ -32,5 +32,6 @@ def internal(error: BaseException) -> str:
     # By what was typed: the defect may have come before, or amid, the reading of options.
     typed = [word for word in sys.argv[1:] if re.fullmatch(r"-[qv]+", word)]
     if "".join(typed).count("v") + sys.argv.count("--verbose") > 1:
-        traceback.print_exception(error)
+        lines = "".join(traceback.format_exception(error)).split("\n")
+        click.echo("\n".join(map(shown, lines)), err=True, nl=False)
     return f"{one_line(defect(error))}; -vv shows the traceback"

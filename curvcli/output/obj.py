@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from ..printable import shown
 from ..slices import slices
 from .parts import Parts
 from .text import ROWS_AT_A_TIME, lines, numbers, without, write_lines
@@ -25,7 +26,7 @@ def write_obj(
     """
     colors, polygons = parts.get("vertex_colors"), parts.get("polygons")
     for comment in parts.get("comments", ()):
-        stream.write(f"# {' '.join(comment.split())}\n".encode())
+        stream.write(f"# {shown(' '.join(comment.split()))}\n".encode())
     for rows in slices(len(points), ROWS_AT_A_TIME):
         columns: dict[str, pl.Series | str] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}
         if colors is not None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..printable import shown
 from .look import background_rgb
 
 Color = tuple[float, float, float]
@@ -57,7 +58,7 @@ class Sheet:
         self.figure.text(
             x / self.width,
             1 - y / self.height,
-            text,
+            shown(text),
             fontsize=size * 0.72,
             color=color or self.ink,
             family=_FONT,
@@ -75,7 +76,7 @@ class Sheet:
         font = FontProperties(family=_FONT, size=size * 0.72, weight="bold" if bold else "normal")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            width: float = self.canvas.get_renderer().get_text_width_height_descent(text, font, False)[0]
+            width: float = self.canvas.get_renderer().get_text_width_height_descent(shown(text), font, False)[0]
         return width
 
     def rectangle(self, box: Box, color: Color) -> None:
@@ -118,7 +119,7 @@ class Sheet:
         stream = io.BytesIO()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            self.canvas.print_png(stream, metadata=dict(about))
+            self.canvas.print_png(stream, metadata={key: shown(text) for key, text in about.items()})
         return stream.getvalue()
 
     # ------------------------------------------------------------------ legends

@@ -15,18 +15,18 @@ import polars as pl
 from numpy.typing import NDArray
 from polars.io.plugins import register_io_source
 
-from ..errors import InputError, OutputError, UsageError
+from ..errors import OutputError, UsageError
 from ..forks import require_threads, threads_lost
 from ..loading.model import Labels
+from ..printable import in_cell
 from ..tables import ROWS_IN_A_FRAME
+from .names import fitting
 from .text import joined
 
 Column: TypeAlias = NDArray[Any] | Labels
 
 SHORTEST = "shortest"
 _SEPARATORS = {".csv": ",", ".tsv": "\t"}
-# Characters that all names in a column of text may have, and in each row on average besides.
-_NAMES, _NAME = 1 << 24, 256
 # Rows that polars formats at a time: 4 times faster than its default of 1024, still small beside the table.
 _ROWS_AT_A_TIME = 8192
 
@@ -45,6 +45,7 @@ def write_table(
     precision: of the text formats; `shortest` reads back to the same double, N rounds to N significant digits.
     stop: ends the writing of text and Parquet half-way once another thread has set it.
     Null is an empty cell in text, null in Parquet, and NaN in npz, where Labels become codes and `NAME_names`.
+    Words that a spreadsheet would compute stand behind an apostrophe in text, see `in_cell`.
     Errors: UsageError for a precision outside 1..17.
     """
     if suffix == ".npz":
@@ -79,8 +80,7 @@ def _regular(stream: BinaryIO) -> io.FileIO | None:
 def _write_text(
     to: io.RawIOBase, columns: Mapping[str, Column], separator: str, digits: int | None, stop: Event | None
 ) -> None:
-    _check_names(columns)
-    for number, frame in enumerate(_frames(columns)):
+    for number, frame in enumerate(_frames(_for_spreadsheets(columns))):
         if stop is not None and stop.is_set():
             raise InterruptedError("told to stop")
         if threads_lost():
@@ -90,6 +90,16 @@ def _write_text(
         text.write_csv(
             cast("IO[bytes]", to), separator=separator, include_header=not number, batch_size=_ROWS_AT_A_TIME
         )
+
+
+def _for_spreadsheets(columns: Mapping[str, Column]) -> Mapping[str, Column]:
+    """The columns with words and headers that no spreadsheet takes for formulas."""
+    heads = fitting(columns, in_cell)
+    return {heads[name]: _in_cells(column) for name, column in columns.items()}
+
+
+def _in_cells(column: Column) -> Column:
+    return Labels(column.codes, tuple(map(in_cell, column.names))) if isinstance(column, Labels) else column
 
 
 def _text(frame: pl.DataFrame, separator: str, digits: int | None, header: bool) -> bytes:
@@ -108,19 +118,6 @@ def _text(frame: pl.DataFrame, separator: str, digits: int | None, header: bool)
             columns[name] = pl.Series([x if y is None or np.isinf(y) else y for x, y in zip(series, near, strict=True)])
     first = separator.join(str(quoted(name)) for name in columns) + "\n" if header else ""
     return first.encode() + joined(columns, separator, "\n")
-
-
-def _check_names(columns: Mapping[str, Column]) -> None:
-    """Errors: InputError for names so long that a text with one in each row is out of proportion to the mesh."""
-    for name, column in columns.items():
-        if isinstance(column, Labels) and column.names:
-            lengths = np.array([len(word) for word in column.names])
-            size = int(lengths[column.codes[column.codes >= 0]].sum())
-            if size > _NAMES + _NAME * len(column.codes):
-                raise InputError(
-                    f"{name}: names of up to {lengths.max():,} characters make a column of {size:,}",
-                    hint="shorter names, or a table in .parquet or .npz, which hold each once",
-                )
 
 
 def _write_parquet(relay: _Relay, columns: Mapping[str, Column]) -> None:

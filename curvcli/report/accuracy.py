@@ -8,13 +8,12 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
 from ..accuracy import ErrorNorms
 from .configuration import Configured
-from .console import report_console, show_configuration
+from .console import escape, report_console, show_configuration
 from .differences import Side
 from .fitting import add_numbers, fitting, plain_table, roomy_table
 
@@ -96,7 +95,7 @@ def show(found: Accuracy) -> None:
     show_configuration(console, found.configuration)
     console.print(fitting(console, _errors(found)))
     if found.unmatched:
-        console.print(f"[dim]without an exact value: {', '.join(found.unmatched)}[/dim]")
+        console.print(f"[dim]without an exact value: {', '.join(map(escape, found.unmatched))}[/dim]")
     if not found.equal:
         console.print(f"[bold red]FAIL[/bold red]: a relative L2 error is above {found.rtol:g}")
 

@@ -8,14 +8,12 @@ from io import StringIO
 from typing import TextIO
 
 from rich import box
-from rich.markup import escape
 from rich.table import Table
 
 from ..plurals import counted
-from ..printable import shown
 from .check import ERROR, FAIL, IDENTITY, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, Outcome
 from .check_lines import FIRST, MOST, WARNINGS, all_failures, by_name, meshes_pass, scopes, warning, warnings
-from .console import MARKS, Console, report_console, show_configuration
+from .console import MARKS, Console, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table, roomy_table
 
 # The least width of a column of sentences, or of paths.
@@ -80,12 +78,12 @@ def _outcomes(mesh: CheckedMesh, verbose: int) -> Iterator[Table]:
     listed = sorted(mesh.outcomes, key=lambda outcome: _ORDER.index(outcome.status))
     groups = [[outcome] for outcome in listed] if verbose else by_name(listed)
     wide = roomy_table("check", "scope", "status")
-    wide.add_column(shown(mesh.path), overflow="fold", min_width=_MESSAGE)
+    wide.add_column(escape(mesh.path), overflow="fold", min_width=_MESSAGE)
     narrow = plain_table("status")
-    narrow.add_column(shown(mesh.path), overflow="fold")
+    narrow.add_column(escape(mesh.path), overflow="fold")
     for group in groups:
         first, scope = group[0], scopes(group)
-        name, where, message = (escape(shown(text)) for text in (first.name, scope, _message(group, verbose)))
+        name, where, message = (escape(text) for text in (first.name, scope, _message(group, verbose)))
         wide.add_row(name, where, MARKS[first.status], message)
         label = name if scope == "whole" else f"{name} ({where})"
         narrow.add_row(MARKS[first.status], f"{label}: {message}")
@@ -114,7 +112,7 @@ def _meshes(report: CheckReport, verbose: int) -> Iterator[Table]:
         for mesh in listed[:most]:
             numbers = _numbers([mesh])
             row = ("" if mesh.status == ERROR else f"{numbers[name]:,}" for name in counts)
-            table.add_row(escape(shown(mesh.path)), MARKS[mesh.status], *row)
+            table.add_row(escape(mesh.path), MARKS[mesh.status], *row)
         for status in _ORDER:
             if rest := [mesh for mesh in listed[most:] if mesh.status == status]:
                 numbers = _numbers(rest)

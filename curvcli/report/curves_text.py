@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rich.markup import escape
 from rich.table import Table
 
 from ..plurals import counted
-from .console import MARKS, report_console, show_configuration
+from .console import MARKS, escape, report_console, show_configuration
 from .curves import CurveReport, CurveRow
 from .fitting import add_numbers, fitting, plain_table, roomy_table, with_sentences
 from .model import CheckRow

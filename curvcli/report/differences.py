@@ -8,14 +8,13 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
 from ..cell_differences import MovedColumn
 from ..differences import Difference, Tolerance
 from .configuration import Configured
-from .console import report_console, show_configuration
+from .console import escape, report_console, show_configuration
 from .fitting import fitting, plain_table, roomy_table
 
 # Rows of the summary; all with -v.

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-import msgspec
-
 from ..errors import LackingError
 from ..nearest import suggestion
-from .model import Piece
+from ..printable import in_json, shown
+from .model import Piece, one_line
 from .quantities import public, smallest_preset
 
 
 def look_up(report: dict[str, Any], path: str) -> str:
     """The value at a dotted path as text: numbers in their shortest form, `null` where undefined, JSON for the rest.
+
+    Words are on one line, with what cannot be printed escaped; JSON has them as they are.
 
     Members of lists are named by index, or by a `name` or `code` that is no index: `checks.gauss_bonnet.status`,
     `components.0`.
@@ -27,9 +28,7 @@ def look_up(report: dict[str, Any], path: str) -> str:
             raise LackingError(f"--get {path}: {_why_not(report, value, walked, key)}")
         value = members[key]
         walked = f"{walked}.{key}" if walked else key
-    if isinstance(value, str):
-        return value
-    return msgspec.json.encode(value).decode()
+    return shown(value) if isinstance(value, str) else in_json(one_line(value)).decode()
 
 
 def _members(value: Any) -> dict[str, Any]:

@@ -38,7 +38,7 @@ def markdown(report: Report, command: str | None = None) -> str:
         _topology(report),
         _folded(
             "Totals and conventions",
-            _table(("total", "value"), ((f"`{key}`", number(value, 10)) for key, value in report.totals.items())),
+            _table(("total", "value"), ((_code(key), number(value, 10)) for key, value in report.totals.items())),
             "\n".join(f"* {key}: {_text(value)}" for key, value in conventions(report).items()),
         ),
     ]
@@ -54,7 +54,7 @@ def _checks(report: Report) -> str:
     rows = [
         (
             RESULTS[row.status] if row.status != "fail" else "**fails**",
-            f"`{row.name}`",
+            _code(row.name),
             "whole" if row.scope == "whole" else _code(row.scope),
             number(row.residual, 3) if row.status != "not_applicable" else "",
             number(row.tolerance, 3) if row.status != "not_applicable" else "",
@@ -123,6 +123,7 @@ def _code(text: str) -> str:
 
 
 def _fenced(command: str) -> str:
+    command = shown(command)
     longest = max((len(run) for run in re.findall("`+", command)), default=0)
     fence = "`" * max(3, longest + 1)
     return f"{fence}sh\n{command}\n{fence}"

@@ -9,6 +9,7 @@ import msgspec
 
 from ..declare import passes
 from ..errors import Notice
+from ..printable import in_json, shown
 from .configuration import Configured
 from .statistics import ColumnStatistics
 
@@ -166,8 +167,31 @@ class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
 
 
 def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
-    """JSON text; numbers are the shortest that read back to the same double."""
-    return msgspec.json.format(msgspec.json.encode(report), indent=2) + b"\n"
+    """JSON text; numbers are the shortest that read back to the same double, what cannot be printed is escaped."""
+    return in_json(msgspec.json.format(one_line(report), indent=2)) + b"\n"
+
+
+def one_line(value: Any) -> bytes:
+    """JSON text on one line; halves of characters, which names of files that are no text hold, are escaped."""
+    try:
+        return msgspec.json.encode(value)
+    except UnicodeEncodeError:
+        return msgspec.json.encode(_whole(msgspec.to_builtins(value)))
+
+
+def _whole(value: Any) -> Any:
+    match value:
+        case str():
+            return value if value.isprintable() else _without_halves(value)
+        case list():
+            return [_whole(one) for one in value]
+        case dict():
+            return {_whole(key): _whole(one) for key, one in value.items()}
+    return value
+
+
+def _without_halves(text: str) -> str:
+    return "".join(shown(c) if "\ud800" <= c < "\ue000" else c for c in text)
 
 
 def schema() -> bytes:

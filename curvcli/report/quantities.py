@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, TypedDict
 
-from rich.markup import escape
 from rich.table import Table
 
 from ..declare import CELL_AREA, NO_QUANTITIES, Quantity, passes
@@ -13,7 +12,7 @@ from ..errors import UsageError
 from ..nearest import suggestion
 from ..pipeline import load_passes, resolve
 from .advice import plain
-from .console import report_console
+from .console import escape, report_console
 from .fitting import fitting, plain_table
 
 _BOLD = str.maketrans("", "", "*")
@@ -129,7 +128,7 @@ def _listed(headers: Sequence[str]) -> Table:
         shown: dict[str, Any] = {**facts(quantity)}
         marked = f"{quantity.name}{'' if shown['preset'] == 'core' else ' +'}"
         cells = [marked, *(shown[header] for header in headers[1:]), shown["formula"]]
-        table.add_row(*(cell.replace("[", r"\[") for cell in cells))
+        table.add_row(*(escape(cell) for cell in cells))
     return table
 
 
@@ -156,7 +155,7 @@ def describe(name: str) -> None:
     for key, label in labels.items():
         value = ", ".join(shown[key]) if isinstance(shown[key], list) else shown[key]
         if value:
-            table.add_row(label, value.replace("[", r"\["))
+            table.add_row(label, escape(value))
     report_console().print(table)
 
 

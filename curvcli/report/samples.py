@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rich import box
-from rich.markup import escape
 from rich.table import Table
 
 from ..samples import specs
-from .console import report_console
+from .console import escape, report_console
 
 if TYPE_CHECKING:
     from ..samples.model import Sample, SampleSpec

@@ -11,7 +11,7 @@ from urllib.parse import quote
 import msgspec
 
 from .._version import __version__
-from ..printable import shown
+from ..printable import in_sarif, shown
 from .check import INPUT, CheckedMesh, CheckReport, Outcome, sentence
 from .model import encode
 
@@ -43,7 +43,7 @@ def _invocation(report: CheckReport) -> dict[str, Any]:
     """The exit code, and the configuration file that has to do with it."""
     found: dict[str, Any] = {"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}
     if not isinstance(report.configuration, msgspec.UnsetType):
-        text = report.configuration.sentence
+        text = in_sarif(report.configuration.sentence)
         found["toolConfigurationNotifications"] = [{"level": "note", "message": {"text": text}}]
         found["properties"] = {"configuration": msgspec.to_builtins(report.configuration)}
     return found
@@ -62,8 +62,8 @@ def uri_of(path: str) -> str:
 
 def _rule(rule: Any) -> dict[str, Any]:
     return {
-        "id": rule.name,
-        "shortDescription": {"text": f"{rule.statement}."},
+        "id": shown(rule.name),
+        "shortDescription": {"text": in_sarif(f"{rule.statement}.")},
         "defaultConfiguration": {"level": "error"},
         "properties": {"kind": rule.kind},
     }
@@ -87,11 +87,11 @@ def _artifact(mesh: CheckedMesh) -> dict[str, Any]:
 def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, int]) -> dict[str, Any]:
     identity = "\0".join((mesh.path, outcome.label)).encode("utf-8", "surrogateescape")
     found: dict[str, Any] = {
-        "ruleId": outcome.name,
+        "ruleId": shown(outcome.name),
         "ruleIndex": place[outcome.name],
         "kind": "fail",
         "level": "error",
-        "message": {"text": sentence(mesh, outcome)},
+        "message": {"text": in_sarif(sentence(mesh, outcome))},
         "partialFingerprints": {"curvcli/v1": hashlib.sha256(identity).hexdigest()},
     }
     if mesh.path != "-":

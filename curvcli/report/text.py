@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from rich.markup import escape
 from rich.table import Table
 
 from ..settings import in_words
 from .build import model
-from .console import MARKS, report_console, show_configuration
+from .console import MARKS, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table
 from .model import CheckRow, Report
 from .proof import holds, proof
@@ -35,7 +34,7 @@ def show(analysis: Analysis, verbose: int = 0) -> None:
     )
     for remark in report.warnings:
         hint = f"; {remark.hint}" if remark.hint else ""
-        first = f" (first: {escape(', '.join(map(str, remark.examples[:3])))})" if remark.examples else ""
+        first = f" (first: {', '.join(map(escape, remark.examples[:3]))})" if remark.examples else ""
         console.print(
             f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}{first}{escape(hint)}",
             soft_wrap=not console.is_terminal,
@@ -91,7 +90,7 @@ def _totals(report: Report) -> Table:
     table = plain_table("total")
     table.add_column("value", justify="left", overflow="fold")
     for key, value in report.totals.items():
-        table.add_row(key, _value(value))
+        table.add_row(escape(key), _value(value))
     return table
 
 
@@ -101,7 +100,7 @@ def _regions(report: Report, digits: int) -> Table:
     for region in report.regions[:20]:
         topology = region.topology
         totals = (_number(_scalar(region.totals.get(key)), digits) for key in ("area", "K", "kappa_g", "willmore"))
-        table.add_row(escape(str(region.name)), f"{topology.faces:,}", str(topology.euler_characteristic), *totals)
+        table.add_row(escape(region.name), f"{topology.faces:,}", str(topology.euler_characteristic), *totals)
     if len(report.regions) > 20:
         table.add_row(f"[dim]… {len(report.regions) - 20:,} more: --table regions=PATH[/dim]")
     return table
@@ -126,7 +125,7 @@ def _columns(report: Report) -> Iterator[Table]:
         for name, column in report.columns.items():
             numbers = (_number(getattr(column, key), digits, "") for key in statistics)
             nulls = f"{column.nulls:,}" if column.nulls else ""
-            table.add_row(name, *((column.unit,) if unit else ()), *numbers, nulls)
+            table.add_row(escape(name), *((escape(column.unit),) if unit else ()), *numbers, nulls)
         yield table
 
 
