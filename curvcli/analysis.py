@@ -98,7 +98,8 @@ class Analysis:
     @cached_property
     def _flags(self) -> list[str]:
         """Hidden flags on the way to the chosen columns: what they mark is reported."""
-        return [name for name in self._closure if passes.quantity(name).kind == "flag"]
+        flags = (name for name in self._closure if passes.quantity(name).kind == "flag")
+        return at_scales(flags, self.settings)
 
     def _applicable_rules(self) -> list[Any]:
         """Checks whose needs the chosen passes meet."""

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from .blocks import dot, span
 from .census import duplicate_faces, duplicate_vertices
+from .declare import AT_SCALE
 from .errors import Notice
 from .plurals import agree, counted
 from .precision import is_single, last_place
 from .seams import closing, near_seam, welding
+from .settings import in_words
 from .solids.notices import of_solids
 from .surface import Surface
 from .walls import WALL, facing_pairs
@@ -61,13 +63,15 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             "[edge|edges] where the surface folds onto itself; H_tan has no value there",
             "H_theta and H_sin have one; sums of H_tan leave such edges out",
         )
-    if "below_noise" in columns:
-        yield Notice.at(
-            "below_noise",
-            np.flatnonzero(columns["below_noise"]),
-            "[vertex|vertices] where |K| is below its own uncertainty K_sigma",
-            "the noise of the coordinates alone explains K there; estimates over more rings average noise out",
-        )
+    for flag, name in (("below_noise", "K"), ("h_below_noise", "h")):
+        if flag in columns:
+            yield Notice.at(
+                "below_noise",
+                np.flatnonzero(columns[flag]),
+                f"[vertex|vertices] where |{name}| is below its own uncertainty {name}_sigma",
+                f"noise of the coordinates alone explains {name} there; estimates over more rings average noise out",
+            )
+    yield from _not_fitted(columns)
     if "voronoi_unfinished" in columns:
         yield Notice.at(
             "voronoi_unfinished",
@@ -75,6 +79,20 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             "[vertex|vertices] whose Voronoi cell would take too many flips to find; it is left empty",
             "--area mixed needs none; a mesh without long fans of thin triangles needs few",
         )
+
+
+def _not_fitted(columns: Mapping[str, Any]) -> Iterator[Notice]:
+    """At each scale, where no polynomial over a plane can be the surface."""
+    for name in sorted(columns):
+        plain, _, scale = name.partition(AT_SCALE)
+        if plain == "no_graph":
+            yield Notice.at(
+                "no_graph",
+                np.flatnonzero(columns[name]),
+                f"[vertex|vertices] whose neighbourhood{f' ({in_words(scale)})' if scale else ''} folds over or bends "
+                "more than a graph over its tangent plane can; local fits are undefined there",
+                "*_corrected needs no plane; a smaller scale bends less, and a finer mesh tells more",
+            )
 
 
 def _clamped(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:

@@ -15,6 +15,7 @@ from .cotangents import Dirichlet, dirichlet
 from .errors import InputError, Notice
 from .findings import out_of_range
 from .loading.surfaces import as_surface
+from .map_orientation import orientation
 from .plurals import counted
 from .stretch import Stretch, stretch
 from .surface import Surface
@@ -31,15 +32,20 @@ class SurfaceMap:
 
     source: M. image: a surface with the same faces in the same order, or the points f(p) as an array (V, 3). Both may
     be anything that stands for a surface: a Surface, a path, a trimesh.Trimesh or (points, faces).
-    σ₁ ≥ σ₂ ≥ 0 are the singular values of f on a face; σ₂ has no sign, because a face in space has no side of its own.
+    σ₁ ≥ σ₂ ≥ 0 are the singular values of f on a face; `orientation` tells which faces f turns over.
     Columns are in the files' units; null (NaN) on degenerate faces of M and at their corners.
     Errors: InputError where the faces differ, with the first difference.
     Source: Sullivan, Discrete surfaces; Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates.
     """
 
+    # Of texture maps: edges along which the image is cut, and what a report calls the image.
+    seams: int | None = None
+    image_name: str | None = None
+
     def __init__(self, source: Any, image: Any) -> None:
         self.source = as_surface(source)
         self.image = _on_same_faces(self.source, image)
+        self.source_vertices = self.source.n_vertices
         self.configuration: Configuration | None = None
 
     # ------------------------------------------------------------------ columns
@@ -53,8 +59,8 @@ class SurfaceMap:
     def _cotangent(self) -> Dirichlet:
         return dirichlet(self.source, self.image.xyz)
 
-    def _ratio(self, values: Floats) -> Floats:
-        return self.source.in_file_unit(self.image.in_file_unit(values, 1), -1)
+    def _ratio(self, values: Floats, exponent: int = 1) -> Floats:
+        return self.source.in_file_unit(self.image.in_file_unit(values, exponent), -exponent)
 
     @property
     def sigma_1(self) -> Floats:
@@ -75,6 +81,27 @@ class SurfaceMap:
     def image_area(self) -> Floats:
         """(F,) area of its image, σ₁ σ₂ area."""
         return self.image.in_file_unit(self.stretch.image_area, 2)
+
+    @property
+    def area_distortion(self) -> Floats:
+        """(F,) σ₁ σ₂: area of the image per area of the face; 1 where f keeps areas."""
+        return self._ratio(self._area_ratio, 2)
+
+    @cached_property
+    def _area_ratio(self) -> Floats:
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            ratio = self.stretch.image_area / self.stretch.area
+        return np.where(np.isnan(self.stretch.sigma_1), np.nan, ratio)
+
+    @cached_property
+    def orientation(self) -> Floats:
+        """(F,) +1, or −1 where f turns the face over against most of its patch; see `map_orientation`."""
+        return orientation(self.source, self.image, self.stretch)
+
+    @property
+    def turned_over(self) -> NDArray[np.int64]:
+        """Faces that f turns over."""
+        return np.flatnonzero(self.orientation < 0)
 
     @property
     def nonconformality(self) -> Floats:
@@ -134,6 +161,7 @@ class SurfaceMap:
         columns = [
             ("sigma_1", s.sigma_1, self.sigma_1),
             ("sigma_2", s.sigma_2, self.sigma_2),
+            ("area_distortion", self._area_ratio, self.area_distortion),
             ("nonconformality", s.nonconformality, self.nonconformality),
             ("area", s.area, self.area),
             ("image_area", s.image_area, self.image_area),
@@ -200,6 +228,12 @@ class SurfaceMap:
                 "[face|faces] whose image has no area",
                 "f is not injective there: σ₂ is 0, and no angle is kept",
             ),
+            (
+                "turned_over_faces",
+                self.turned_over,
+                "[face|faces] that the map turns over, against the rest of [its|their] patch",
+                "the image is folded; column orientation of `--table faces=PATH` is -1 there",
+            ),
         )
         found = [Notice.at(code, at, text, hint) for code, at, text, hint in told if len(at)]
         return [*found, *out_of_range(self._lost)]
@@ -207,10 +241,11 @@ class SurfaceMap:
     # ------------------------------------------------------------------ tables
 
     def face_table(self) -> dict[str, NDArray[Any]]:
-        """One row per face: singular values, non-conformality, area and area of the image."""
-        names = ("sigma_1", "sigma_2", "nonconformality", "area", "image_area")
+        """One row per face: singular values, non-conformality, area, area of the image, their ratio, orientation."""
+        names = ("sigma_1", "sigma_2", "nonconformality", "area", "image_area", "area_distortion")
         face = np.arange(self.source.n_faces, dtype=np.int32)
-        return {"face": face} | {name: getattr(self, name) for name in names}
+        sign = np.ma.masked_array(np.nan_to_num(self.orientation).astype(np.int32), np.isnan(self.orientation))
+        return {"face": face} | {name: getattr(self, name) for name in names} | {"orientation": sign}
 
     def vertex_table(self) -> dict[str, NDArray[Any]]:
         """One row per vertex: position in the source, gradient of the energy, harmonic residual."""

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from ..maps import SurfaceMap
 
 TABLES = ("vertices", "faces")
+# B of --map: the texture coordinates of A.
+TEXTURE = "uv"
 # Options that make sense only without --map, and only with it.
 _DIFFERENCES = (
     *("rtol", "atol", "only", "ignore", "common", "passes", "area", "mean", "orient", "unit", "regions"),
@@ -51,7 +53,9 @@ _CONVENTIONS = (
 @click.option(
     "--exact", is_flag=True, help="The table holds exact values: tell the norms of the errors. Known of `sample`'s."
 )
-@click.option("--map", "as_map", is_flag=True, help="A → B as a map on the same faces: its energy and its distortion.")
+@click.option(
+    "--map", "as_map", is_flag=True, help="A → B as a map on the same faces, or to A's texture (uv): its distortion."
+)
 @click.option(
     "-o",
     "--output",
@@ -66,7 +70,7 @@ _CONVENTIONS = (
     "tables",
     metavar="KIND=PATH",
     multiple=True,
-    help="With --map: write a table, KIND faces (singular values, non-conformality) or vertices (harmonic residual); "
+    help="With --map: write a table, KIND faces (singular values, orientation) or vertices (harmonic residual); "
     "repeatable.",
 )
 @options.as_json
@@ -99,7 +103,10 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     With --map: the map that sends each vertex of A to the vertex of the same index of B, linear on faces.
     Tells its Dirichlet energy, the area of its image, its non-conformality (0 for conformal maps), the
     singular values σ₁ ≥ σ₂ ≥ 0 on every face, and how far it is from harmonic. A and B must have the
-    same faces. Exits with 1 when an identity fails.
+    same faces. Tells which faces are turned over: into a plane by the sign of det df, in space against
+    their neighbours. With B = uv, the map to A's own texture coordinates: A is cut open along the seams of
+    its texture, which are counted, and the energy is the sum over the faces. Exits with 1 when an identity
+    fails.
 
     \b
       curvcli compare bunny.obj bunny.json
@@ -107,6 +114,7 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
       curvcli compare bunny.obj bunny.json --only totals --only checks
       curvcli compare torus.ply exact.csv --rings 3
       curvcli compare mesh.obj flattened.obj --map
+      curvcli compare mesh.obj --map uv
       curvcli compare mesh.obj flattened.obj --map --get totals.nonconformality
       curvcli compare mesh.obj flattened.obj --map --table faces=distortion.csv
     """
@@ -166,14 +174,16 @@ def compare_map(
 def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]) -> SurfaceMap:
     from ..loading.surfaces import load
     from ..maps import SurfaceMap
+    from ..texture import TextureMap
     from .progress import phase
 
-    surfaces = []
-    for path in (a, b):
+    texture, surfaces = b == TEXTURE, []
+    for path in (a,) if texture else (a, b):
         with phase(f"reading {path}", quiet):
-            surfaces.append(load(sys.stdin.buffer if path == "-" else path, weld=weld, **limits))
+            source = sys.stdin.buffer if path == "-" else path
+            surfaces.append(load(source, weld=weld, texture=texture, **limits))
     with phase("computing", quiet):
-        found = SurfaceMap(*surfaces)
+        found = TextureMap(*surfaces) if texture else SurfaceMap(*surfaces)
         _ = found.checks
     return found
 

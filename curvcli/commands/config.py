@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -13,6 +14,10 @@ from .nearest import SHARED, search
 
 # Where the context remembers which file applied, and which tables it has.
 META = "curvcli.configuration"
+
+# Bytes of a configuration, and parts of a dotted key: far more than any has.
+_LARGEST, _DEEPEST = 1 << 20, 64
+_QUOTED, _BETWEEN_KEYS = re.compile(rb"\"[^\"]*\"|'[^']*'"), re.compile(rb"[,=#\[\]{}]")
 
 # Options that do something else than set a default.
 _NOT_DEFAULTS = ("help", "schema")
@@ -71,7 +76,9 @@ def _table(path: str) -> dict[str, Any] | None:
 
     try:
         with open(path, "rb") as stream:
-            content = tomllib.load(stream)
+            text = stream.read(_LARGEST + 1)
+        _check_size(path, text)
+        content = tomllib.loads(text.decode("utf-8"))
     except OSError as error:
         raise UsageError(f"{path}: the configuration cannot be read: {error.strerror}") from None
     except (ValueError, RecursionError) as error:  # also for numbers of more digits than Python turns into an int
@@ -83,6 +90,17 @@ def _table(path: str) -> dict[str, Any] | None:
     if table is not None and not isinstance(table, dict):
         raise UsageError(f"{path}: tool.curvcli: expected one table per command, such as [tool.curvcli.check]")
     return table
+
+
+def _check_size(path: str, text: bytes) -> None:
+    """Errors: UsageError for what takes memory and time out of proportion: a key of n parts takes their square."""
+    if len(text) > _LARGEST:
+        raise UsageError(f"{path}: more than {_LARGEST >> 10} kB, which no configuration needs")
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.count(b".") > _DEEPEST:
+            keys = _BETWEEN_KEYS.split(_QUOTED.sub(b"", line).replace(b"..", b""))
+            if max(key.count(b".") for key in keys) > _DEEPEST:
+                raise UsageError(f"{path}: line {number}: a key of more than {_DEEPEST} parts, of which none is known")
 
 
 def heading(path: str, command: str) -> str:

@@ -16,8 +16,9 @@ from . import options
 def command(name: str | None, as_json: bool, markdown: bool) -> None:
     """Every quantity with its symbol, formula, kind and unit, and which curvature to take; with NAME, all about one.
 
-    Measures (K, H_vec, A) are exact in sum. At a point of a smooth surface take K_fit and h_fit on clean meshes,
-    K_corrected and h_corrected at a radius above the noise on scans; K_ring and h_ring average the measures.
+    Measures (K, H_vec, A) are exact in sum. At a point of a smooth surface take K_fit and h_fit on clean irregular
+    meshes, K_density, h or *_corrected on regular grids, K_corrected and h_corrected on folded shapes and, at a radius
+    above the noise, on scans; K_ring and h_ring average the measures.
     `curvcli help estimates` tells when to use which, in five sentences and one table.
     """
     from ..report.quantities import describe, listing

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..blocks import Floats, dot
-from ..declare import Column, Quantity, VectorColumn, curvature_pass
+from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
 from ..settings import Scale
 from ..surface import Surface
 from ..threads import for_each
@@ -18,7 +18,8 @@ from .star import null_where
 from .tensor import line
 
 _SHARED: dict[str, Any] = {
-    "boundary": "same, from one side; null where the neighbourhood does not determine a quadric",
+    "boundary": "same, from one side; null where the neighbourhood does not determine a quadric, or is no graph over "
+    "its tangent plane",
     "source": "Cazals and Pouget, Estimating differential quantities using polynomial fitting of osculating jets; "
     "degrees 3 and 4 as far as residuals tell them from noise: curvcli",
 }
@@ -38,6 +39,8 @@ _LINE: dict[str, Any] = {
 }
 # Principal curvatures that differ by less than this part of their size, or by rounding, have no directions.
 _UMBILIC = 1e-9
+# The part of its area that the projection of a half sphere onto its plane has.
+_HALF_SPHERE = 0.5
 
 
 @curvature_pass(
@@ -103,21 +106,44 @@ _UMBILIC = 1e-9
             description="Condition of the local fit of degree 2: how much it can magnify errors of the positions.",
             **_SHARED,
         ),
+        Quantity("no_graph", kind="flag", public=False),
     )
 )
-def local_fit(surface: Surface, scale: Scale, star_vector: VectorColumn) -> tuple[Column | VectorColumn, ...]:
-    """Curvatures of the polynomial of least squares over the tangent plane of each vertex, at a stated scale."""
+def local_fit(surface: Surface, scale: Scale, star_vector: VectorColumn) -> tuple[Column | VectorColumn | Flags, ...]:
+    """Curvatures of the polynomial of least squares over the tangent plane of each vertex, at a stated scale.
+
+    Flags say where they are left null because the neighbourhood is no graph over that plane: see `_is_no_graph`.
+    """
+    folded = np.zeros(surface.n_vertices, bool)
     numbers, lines = np.full((5, surface.n_vertices), np.nan), np.full((2, 3, surface.n_vertices), np.nan)
 
     def work(made: Callable[[], Moments]) -> None:
         given = made()
-        numbers[:, given.vertex], lines[:, :, given.vertex] = _curvatures(given, fit(given))
+        jets = fit(given)
+        numbers[:, given.vertex], lines[:, :, given.vertex] = _curvatures(given, jets)
+        folded[given.vertex] = np.isfinite(jets.condition) & _is_no_graph(given, jets)
 
     for_each(moments(surface, scale, star_vector, least=QUADRATIC), work)
+    numbers[:-1, folded] = lines[:, :, folded] = np.nan
     without = surface.without_orientation
     gauss, mean, larger, smaller, condition = numbers
     odd = (null_where(without, column) for column in (mean, larger, smaller, lines[0], lines[1]))
-    return gauss, *odd, condition
+    return gauss, *odd, condition, folded
+
+
+def _is_no_graph(given: Moments, jets: Jets) -> Flags:
+    """(m,) neighbourhoods that are no graph over the tangent plane, as far as their normals and their fits tell.
+
+    The largest graph on a sphere of radius 1/κ is a half: its shadow on the plane has half of its area, and its points
+    are within √2/κ of the middle. Here the shadow has less, or the fit itself says that the points are farther: with
+    its shape operator S, and κ the larger of its curvatures by size, the mean of |S x|² + (κ z)² is above 2.
+    """
+    p, q = jets.gradient
+    a, b, d = jets.hessian / np.sqrt(1 + p * p + q * q)
+    larger = 0.5 * np.abs(a + d) + np.hypot(0.5 * (a - d), b)
+    across = (a * a + b * b) * given.of(2, 0) + 2 * b * (a + d) * given.of(1, 1) + (b * b + d * d) * given.of(0, 2)
+    far = across + larger * larger * given.squared_height > 2 * given.size
+    return np.asarray((given.shadow < _HALF_SPHERE) | far)
 
 
 def _curvatures(given: Moments, jets: Jets) -> tuple[Floats, Floats]:

@@ -81,16 +81,24 @@ def angle_defect_uncertainty(surface: Surface, noise: float | None, K: Column) -
 
 
 @curvature_pass(
-    symbol="σ(h_p)",
-    formula="σ √(Σ_q |∂h/∂q|² + |Σ_q ∂h/∂q|²)",
-    kind="density",
-    length_exponent=-1,
-    mean_degree=1,
-    boundary="null",
-    preserves="the standard deviation of h_signed over noisy copies, to first order",
-    source="first-order propagation of errors; curvcli",
+    provides=(
+        Quantity(
+            "h_sigma",
+            symbol="σ(h_p)",
+            formula="σ √(Σ_q |∂h/∂q|² + |Σ_q ∂h/∂q|²)",
+            kind="density",
+            length_exponent=-1,
+            mean_degree=1,
+            boundary="null",
+            preserves="the standard deviation of h_signed over noisy copies, to first order",
+            source="first-order propagation of errors; curvcli",
+        ),
+        Quantity("h_below_noise", kind="flag", public=False),
+    )
 )
-def h_sigma(surface: Surface, noise: float | None, h: Column, H_vec: VectorColumn, star_vector: VectorColumn) -> Column:
+def h_sigma(
+    surface: Surface, noise: float | None, h: Column, H_vec: VectorColumn, star_vector: VectorColumn
+) -> tuple[Column | Flags, ...]:
     """Standard deviation of h_signed under independent noise of each coordinate (`--noise`).
 
     ∂h = (u·∂**H** − h n·∂**A**)/|**A**|, u = **H**/|**H**| and n = **A**/|**A**|, from the derivatives of every
@@ -110,7 +118,8 @@ def h_sigma(surface: Surface, noise: float | None, h: Column, H_vec: VectorColum
                 for row, part in zip(own, pull, strict=True):
                     np.add.at(row, at, part)
         found = sigma * np.sqrt(total + dot(own, own))
-    return null_where(np.isnan(h) | ~np.isfinite(found), found)
+    found = null_where(np.isnan(h) | ~np.isfinite(found), found)
+    return found, h < found
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) ->
         raise _irregular(status.st_mode, path)
     if max_bytes is not None and status.st_size > max_bytes:
         file.close()
-        raise _too_large(f"{status.st_size} bytes", max_bytes)
+        raise too_large(f"{status.st_size} bytes", max_bytes)
     return file
 
 
@@ -78,7 +78,7 @@ def read_whole(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
     except OSError as error:
         raise unreadable(error) from None
     if max_bytes is not None and len(data) > max_bytes:
-        raise _too_large(f"more than {max_bytes} bytes", max_bytes)
+        raise too_large(f"more than {max_bytes} bytes", max_bytes)
     if before is not None and len(data) != before.size - begin:
         raise changed(before.size - begin, len(data))
     if before != after:
@@ -154,7 +154,7 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
     Errors: DamagedError if they are damaged, InputError if they inflate to more than max_bytes (without it: 64 MiB and
     100 times the compressed size, more than any mesh needs).
     """
-    limit = max_bytes if max_bytes is not None else _FREE_INFLATION + _INFLATION * len(data)
+    limit = max_bytes if max_bytes is not None else free_inflation(len(data))
     parts: list[bytes] = []
     total = 0
     try:
@@ -163,10 +163,15 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
                 parts.append(part)
                 total += len(part)
                 if total > limit:
-                    raise _too_large(f"gzip data that inflate to more than {limit} bytes", limit)
+                    raise too_large(f"gzip data that inflate to more than {limit} bytes", limit)
     except (OSError, EOFError, zlib.error) as error:
         raise DamagedError(f"damaged gzip data found ({error})") from None
     return b"".join(parts)
+
+
+def free_inflation(size: int) -> int:
+    """Bytes that so many compressed bytes may become where nobody sets a limit: more than any mesh or table needs."""
+    return _FREE_INFLATION + _INFLATION * size
 
 
 def changed(expected: int, read: int) -> InputError:
@@ -205,5 +210,6 @@ def _irregular(mode: int, path: str | bytes | os.PathLike[Any]) -> InputError:
     return InputError(f"a {kind} found, a regular file expected", hint=hint)
 
 
-def _too_large(found: str, limit: int) -> InputError:
+def too_large(found: str, limit: int) -> InputError:
+    """What is said of more than is allowed."""
     return InputError(f"{found} found, at most {limit} allowed", hint="--max-bytes sets the limit")

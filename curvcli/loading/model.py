@@ -62,6 +62,7 @@ class MeshFile:
     path, sha256: where the bytes came from (`-` for a stream) and their hash, None for arrays made in memory.
     weld: how vertices were merged: `none`, `exact` or a tolerance.
     corner_normals: (3, V) sums of the unit normals that an OBJ file gives at the corners there, if they were asked for.
+    corner_texture: (2, C) texture coordinates of the corners of an OBJ file, NaN where it gives none, if asked for.
     notices: what was accepted but should be said.
     """
 
@@ -78,6 +79,7 @@ class MeshFile:
     sha256: str | None = None
     weld: str = "none"
     corner_normals: NDArray[np.float64] | None = None
+    corner_texture: NDArray[np.float64] | None = None
     notices: tuple[Notice, ...] = ()
 
     @property

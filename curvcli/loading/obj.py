@@ -14,6 +14,7 @@ from .limits import check_faces
 from .model import NO_POLYLINES, Labels, MeshFile, Polylines
 from .obj_lines import ObjLines, split_lines, tidy_lines
 from .obj_normals import corner_normals
+from .obj_texture import corner_texture
 from .text import NEWLINE, Records, Untidy, decode, plain_lines
 
 _LABELS = {b"g": "groups", b"o": "objects", b"usemtl": "materials"}
@@ -24,21 +25,22 @@ _IGNORED = frozenset(
 )
 
 
-def parse_obj(data: bytes, *, max_faces: int | None = None, normals: bool = False) -> MeshFile:
+def parse_obj(data: bytes, *, max_faces: int | None = None, normals: bool = False, texture: bool = False) -> MeshFile:
     """The content of an OBJ file.
 
     Negative indices count back from the record they stand in. Vertex colours (`v x y z r g b`) become the properties
-    `red`, `green`, `blue`; a rational weight `w` is ignored and counted. normals: read the `vn` records too.
+    `red`, `green`, `blue`; a rational weight `w` is ignored and counted. normals, texture: read the `vn` records, the
+    `vt` records, too.
     Errors: InputError with the line of a record that cannot be read or of an index that is out of range.
     """
     text = plain_lines(data)
     try:
-        return _read(split_lines(text), max_faces, normals)
+        return _read(split_lines(text), max_faces, normals, texture)
     except Untidy:
-        return _read(tidy_lines(text), max_faces, normals)
+        return _read(tidy_lines(text), max_faces, normals, texture)
 
 
-def _read(lines: ObjLines, max_faces: int | None, normals: bool) -> MeshFile:
+def _read(lines: ObjLines, max_faces: int | None, normals: bool, texture: bool) -> MeshFile:
     is_v, is_f, is_l = lines.of("v"), lines.of("f"), lines.of("l")
     check_faces(int(np.count_nonzero(is_f)), max_faces)
     notices: list[Notice] = []
@@ -46,6 +48,7 @@ def _read(lines: ObjLines, max_faces: int | None, normals: bool) -> MeshFile:
     xyz, colours = _vertices(lines, is_v, notices)
     corners, sizes = _corners(lines, is_f, is_v)
     given = corner_normals(lines, is_f, corners, xyz.shape[1]) if normals and is_f.any() else None
+    uv = corner_texture(lines, is_f) if texture and is_f.any() else None
     count = int(np.count_nonzero(is_f))
     keep = sizes >= 3 if isinstance(sizes, np.ndarray) else np.full(count, sizes >= 3)
     if not keep.all():
@@ -53,7 +56,8 @@ def _read(lines: ObjLines, max_faces: int | None, normals: bool) -> MeshFile:
         place = lines.place(int(np.flatnonzero(is_f)[short[0]]))
         hint = f"the first is in {place}; `curvcli check` refuses such files without --allow no-degenerate"
         notices.append(Notice.at("short_faces", short, "[face|faces] with fewer than 3 corners, dropped", hint))
-        corners = corners[np.repeat(keep, sizes)]
+        kept = np.repeat(keep, sizes)
+        corners, uv = corners[kept], None if uv is None else uv[:, kept]
         sizes = sizes[keep] if isinstance(sizes, np.ndarray) else 3
     if not len(corners) and not is_l.any():
         raise InputError("no faces", hint="a surface needs `f` records with at least 3 corners each")
@@ -68,6 +72,7 @@ def _read(lines: ObjLines, max_faces: int | None, normals: bool) -> MeshFile:
         polylines=_polylines(lines, is_l, is_v) if is_l.any() else NO_POLYLINES,
         notices=tuple(notices),
         corner_normals=given,
+        corner_texture=uv,
     )
 
 

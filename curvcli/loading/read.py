@@ -10,7 +10,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import ExitStack
 from dataclasses import replace
-from typing import Any, BinaryIO, Generic, TypeVar
+from typing import Any, BinaryIO, Generic, NamedTuple, TypeVar
 
 from ..errors import InputError, UsageError
 from ..memory import require_polars
@@ -27,6 +27,13 @@ _PREFIX = "curvcli-"
 _GZIP = b"\x1f\x8b"
 
 Made = TypeVar("Made")
+
+
+class Wanted(NamedTuple):
+    """What is read of a file beside its surface: the normals, and the texture coordinates, of an OBJ file."""
+
+    normals: bool = False
+    texture: bool = False
 
 
 def read_mesh_file(
@@ -57,6 +64,7 @@ def read_and_make(
     max_faces: int | None = None,
     max_bytes: int | None = None,
     normals: str = "mesh",
+    texture: bool = False,
 ) -> Made:
     """What `make` makes of the content of a mesh file, read, and refused, as `read_mesh_file` does it."""
     weld = parse_weld(weld)
@@ -64,7 +72,8 @@ def read_and_make(
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(FORMATS)} are")
     path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
     try:
-        return _read(make, source, path, input_format and input_format.lower(), weld, max_faces, max_bytes, normals)
+        kind = input_format and input_format.lower()
+        return _read(make, source, path, kind, weld, max_faces, max_bytes, Wanted(normals == "file", texture))
     except InputError as error:
         place, hint = error.place and shown(error.place), error.hint and shown(error.hint)
         raise InputError(shown(error.problem), path=shown(path), place=place, hint=hint) from None
@@ -78,7 +87,7 @@ def _read(
     weld: str | float,
     max_faces: int | None,
     max_bytes: int | None,
-    normals: str,
+    asked: Wanted,
 ) -> Made:
     with ExitStack() as stack:
         raw: io.FileIO | bytes
@@ -106,7 +115,7 @@ def _read(
 
         def content() -> Made:
             try:
-                mesh = _parse(pieces, kind, weld, max_faces, normals)
+                mesh = _parse(pieces, kind, weld, max_faces, asked)
             except InputError:
                 hashed.check()  # what is wrong with a file that changes is that it changes
                 raise
@@ -174,21 +183,21 @@ def _load(file_obj: _Content[Any], **_: Any) -> dict[str, Any]:
     return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": {"curvcli": file_obj.made.result()}}
 
 
-def _parse(pieces: Pieces, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
+def _parse(pieces: Pieces, kind: str, weld: str | float, max_faces: int | None, asked: Wanted) -> MeshFile:
     """The content of a file of a known kind, equal positions merged where that is asked for."""
     import numpy as np
 
     from .weld import welded
 
     with np.errstate(invalid="ignore"):  # signalling NaNs; who uses a NaN refuses it
-        return welded(_content(pieces, kind, weld, max_faces, normals), weld)
+        return welded(_content(pieces, kind, weld, max_faces, asked), weld)
 
 
-def _content(pieces: Pieces, kind: str, weld: str | float, max_faces: int | None, normals: str) -> MeshFile:
+def _content(pieces: Pieces, kind: str, weld: str | float, max_faces: int | None, asked: Wanted) -> MeshFile:
     if kind == "obj":
         from .obj import parse_obj
 
-        return parse_obj(pieces.rest(), max_faces=max_faces, normals=normals == "file")
+        return parse_obj(pieces.rest(), max_faces=max_faces, normals=asked.normals, texture=asked.texture)
     if kind == "ply":
         from .ply import parse_ply
 

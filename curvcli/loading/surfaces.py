@@ -24,12 +24,13 @@ def load(
     max_faces: int | None = None,
     max_bytes: int | None = None,
     normals: Literal["mesh", "file"] = "mesh",
+    texture: bool = False,
 ) -> Surface:
     """Read an OBJ, PLY or STL file as the surface it describes: rows in file order, seams never cut, nothing repaired.
 
     weld: `auto` (STL by exact position, OBJ and PLY not at all), `none`, `exact`, or a tolerance relative to the
     diagonal of the bounding box. orient: `outward` turns closed patches that are inside out. normals: `file` also
-    reads the normals of an OBJ file; those of a PLY file are among its properties anyhow.
+    reads the normals of an OBJ file, texture its texture coordinates; those of a PLY file are among its properties.
     Errors: InputError, one line with file, place, expectation and way out; TypeError for no path and no stream.
     """
     from .read import read_and_make
@@ -44,7 +45,7 @@ def load(
             made.work_out_topology()  # almost everything needs it, and the import leaves the time
         return made
 
-    return read_and_make(surface, source, input_format, weld, max_faces, max_bytes, normals)
+    return read_and_make(surface, source, input_format, weld, max_faces, max_bytes, normals, texture)
 
 
 def from_file(file: MeshFile, orient: Orient = "file") -> Surface:

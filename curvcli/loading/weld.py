@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +16,11 @@ from ..slices import LONG, slices
 from ..threads import each
 from .model import MeshFile, Polylines
 
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
+_PAIRS = 1 << 20
+"""Pairs of positions that are looked at together."""
 _CROWD = 200
 """Positions near a vertex, on average, of which a tolerance is too large for the mesh."""
 # Odd multipliers whose bits are well spread, one for each coordinate and one for the end.
@@ -151,7 +158,7 @@ def weld_within(
     diagonal of the bounding box.
 
     xyz: (3, n). Positions that are not finite stay alone. among: (n,) the positions that may be joined, by default all.
-    Errors: InputError where so many positions are that near to one another that their pairs would not fit in memory.
+    Errors: InputError where so many positions are that near to one another that their pairs would take too long.
     """
     from scipy.spatial import cKDTree
 
@@ -183,9 +190,29 @@ def weld_within(
             f"{near} positions lie within the tolerance of a vertex on average, a few expected",
             hint="a smaller --weld TOL, or `--weld exact`",
         )
-    pairs = tree.query_pairs(reach, output_type="ndarray")
-    groups, label = label_graph(count, *pairs.T)
+    groups, label = count, np.arange(count, dtype=np.int32)
+    for a, b in _near_pairs(tree, reach, near):
+        groups, again = label_graph(groups, label[a], label[b])
+        label = again[label]
     lead = np.full(groups, n, np.int64)
     np.minimum.at(lead, label, finite[first])
     lowest[finite] = lead[label[number]]
     return lowest
+
+
+def _near_pairs(tree: cKDTree, reach: float, near: int) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
+    """Pairs of positions within reach of each other, all or, where a crowd has very many, in blocks.
+
+    near: how many lie around a position on average.
+    """
+    if near * tree.n <= _PAIRS:
+        a, b = tree.query_pairs(reach, output_type="ndarray").T
+        yield a, b
+        return
+    from scipy.spatial import cKDTree
+
+    around = np.cumsum(tree.query_ball_point(tree.data, reach, return_length=True))
+    bounds = np.searchsorted(around, np.arange(0, around[-1], _PAIRS)).tolist()
+    for begin, end in pairwise([*dict.fromkeys(bounds), tree.n]):
+        found = cKDTree(tree.data[begin:end]).sparse_distance_matrix(tree, reach, output_type="ndarray")
+        yield found["i"] + begin, found["j"]

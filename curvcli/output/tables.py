@@ -15,7 +15,7 @@ import polars as pl
 from numpy.typing import NDArray
 from polars.io.plugins import register_io_source
 
-from ..errors import OutputError, UsageError
+from ..errors import InputError, OutputError, UsageError
 from ..forks import require_threads, threads_lost
 from ..loading.model import Labels
 from ..printable import in_cell
@@ -27,6 +27,8 @@ Column: TypeAlias = NDArray[Any] | Labels
 
 SHORTEST = "shortest"
 _SEPARATORS = {".csv": ",", ".tsv": "\t"}
+# Characters that all names in a column of text may have, and in each row on average besides.
+_NAMES, _NAME = 1 << 24, 256
 # Rows that polars formats at a time: 4 times faster than its default of 1024, still small beside the table.
 _ROWS_AT_A_TIME = 8192
 
@@ -80,6 +82,7 @@ def _regular(stream: BinaryIO) -> io.FileIO | None:
 def _write_text(
     to: io.RawIOBase, columns: Mapping[str, Column], separator: str, digits: int | None, stop: Event | None
 ) -> None:
+    _check_names(columns)
     for number, frame in enumerate(_frames(_for_spreadsheets(columns))):
         if stop is not None and stop.is_set():
             raise InterruptedError("told to stop")
@@ -118,6 +121,19 @@ def _text(frame: pl.DataFrame, separator: str, digits: int | None, header: bool)
             columns[name] = pl.Series([x if y is None or np.isinf(y) else y for x, y in zip(series, near, strict=True)])
     first = separator.join(str(quoted(name)) for name in columns) + "\n" if header else ""
     return first.encode() + joined(columns, separator, "\n")
+
+
+def _check_names(columns: Mapping[str, Column]) -> None:
+    """Errors: InputError for names so long that a text with one in each row is out of proportion to the mesh."""
+    for name, column in columns.items():
+        if isinstance(column, Labels) and column.names:
+            lengths = np.array([len(word) for word in column.names])
+            size = int(lengths[column.codes[column.codes >= 0]].sum())
+            if size > _NAMES + _NAME * len(column.codes):
+                raise InputError(
+                    f"{name}: names of up to {lengths.max():,} characters make a column of {size:,}",
+                    hint="shorter names, or a table in .parquet or .npz, which hold each once",
+                )
 
 
 def _write_parquet(relay: _Relay, columns: Mapping[str, Column]) -> None:

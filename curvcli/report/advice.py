@@ -5,8 +5,10 @@ from __future__ import annotations
 SENTENCES = (
     "What has to add up (total curvature, forces, energies, regions) is asked of the measures K, H_vec and A: they are "
     "exact on every mesh, and no estimate changes them.",
-    "The curvature at a point of a smooth surface, on a mesh without noise, is K_fit, h_fit, kappa_1_fit and "
-    "kappa_2_fit: of all estimates here they come nearest and converge fastest.",
+    "The curvature at a point of a smooth surface, on an irregular mesh without noise, is K_fit, h_fit, kappa_1_fit "
+    "and kappa_2_fit: they come nearest and converge fastest. On regular grids that are coarse for the shape, "
+    "K_density, h and *_corrected are nearer; where the mesh folds over, as a cortex does, fits are empty and "
+    "*_corrected is there.",
     "On a noisy mesh, such as a scan, it is K_corrected, h_corrected, kappa_1_corrected and kappa_2_corrected at a "
     "radius well above the noise: --radius 2e,4e,8e gives one column for each, and where neighbouring scales agree the "
     "value can be trusted.",
@@ -32,7 +34,9 @@ NOTE = (
     "Relative L² errors on 10,000 vertices of a sphere, a torus and an ellipsoid, triangulations of random points, at "
     "the default scale of 2 rings; H with noise of a thousandth of the size. Over 5 rings that noise leaves less: "
     "0.029, 0.032, 0.039 in h_corrected, 0.023, 0.030, 0.034 in h_fit (on regular meshes h_corrected is ahead), and "
-    "0.12, 0.12, 0.17 in libigl's principal_curvature."
+    "0.12, 0.12, 0.17 in libigl's principal_curvature. On a regular grid of 504 vertices on "
+    "the torus the errors of H without noise are 0.030 in h, 0.015 in h_corrected and 0.075 in h_fit, with 4,000 they "
+    "are 0.0036, 0.0008 and 0.0012."
 )
 
 

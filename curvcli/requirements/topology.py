@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ..analysis import Analysis
+from ..bodies import taken_apart
 from ..census import census, classify
 from ..seams import way_to_close
 from ..solids.notices import kinds
@@ -73,26 +74,28 @@ def consistent_winding(analysis: Analysis) -> str:
 def outward(analysis: Analysis) -> str:
     """Bodies have a positive volume and cavities a negative one as the file winds them; no two closed patches cross."""
     surface = analysis.surface
-    solids = surface.solids
-    if not solids.count:
+    apart = taken_apart(surface)
+    if not apart.solids.count:
         return "no patch is closed and orientable, so that none has an outside"
-    return joined(_inside_out(surface), _crossing(surface))
+    return joined(_inside_out(surface, apart), _crossing(surface, apart))
 
 
-def _inside_out(surface: Surface) -> str:
-    solids = surface.solids
+def _inside_out(surface: Surface, apart: Surface) -> str:
+    """Bodies and cavities of the wrong sign. apart: the surface with each body on its own vertices."""
+    solids = apart.solids
     turned = np.flatnonzero(solids.inside_out)
     if not len(turned):
         return ""
     first = face_name(surface, solids.first_face[turned[0]])
     found = located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
     if len(turned) > 1:
-        return f"{found}: {kinds(surface, turned)}"
+        return f"{found}: {kinds(apart, turned)}"
     return f"{found}: a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
 
 
-def _crossing(surface: Surface) -> str:
-    solids = surface.solids
+def _crossing(surface: Surface, apart: Surface) -> str:
+    """Bodies that cross."""
+    solids = apart.solids
     if not len(solids.crossing):
         return ""
     some = [[face_name(surface, solids.first_face[patch]) for patch in pair] for pair in solids.crossing[:3]]

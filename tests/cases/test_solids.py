@@ -60,7 +60,7 @@ def test_the_tolerance_that_closes(folder: str, name: str, weld: str, words: str
 
 def test_a_common_wall_is_explained() -> None:
     name, words = "multibody_touching.stl", "2 pairs of coincident faces face each other: bodies with a common wall"
-    checked = curvcli("check", case(name))
+    checked = curvcli("check", case(name), "--require", "outward")
     assert checked.code == 1
     failed = [line for line in checked.out.splitlines() if " fails: " in line]
     assert len(failed) == 2

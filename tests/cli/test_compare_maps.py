@@ -13,6 +13,7 @@ import pytest
 from tests.cli.program import Ended
 
 Run = Callable[..., Ended]
+MORE = ("area_distortion", "orientation")
 
 
 @pytest.fixture
@@ -93,7 +94,7 @@ def test_tables(within: Run, square: Path, stretched: Path, tmp_path: Path) -> N
     assert frame.columns == [*("vertex", "x", "y", "z"), *(f"gradient_{x}" for x in "xyz"), "harmonic_residual"]
     assert frame["harmonic_residual"].to_list() == [None, None, None, None, 1.0]
     frame = pl.read_parquet(faces)
-    assert frame.columns == ["face", "sigma_1", "sigma_2", "nonconformality", "area", "image_area"]
+    assert frame.columns == ["face", "sigma_1", "sigma_2", "nonconformality", "area", "image_area", *MORE]
     # det = σ₁ σ₂ is the ratio of the areas.
     np.testing.assert_allclose(frame["sigma_1"] * frame["sigma_2"], frame["image_area"] / frame["area"], rtol=1e-14)
     assert frame["nonconformality"].sum() == pytest.approx(json.loads(report.read_text())["totals"]["nonconformality"])
@@ -141,3 +142,47 @@ def test_refused(within: Run, square: Path, tmp_path: Path) -> None:
     refused = within("compare", square, square, "--map", "-o", tmp_path / "v.csv")
     assert refused.code == 4
     assert (tmp_path / "v.csv").read_text() == "mine"
+
+
+def test_the_command_counts_them(within: Run, square: Path) -> None:
+    """The centre pulled out over an edge: that triangle is turned over."""
+    image = square.with_name("image.obj")
+    image.write_text(square.read_text().replace("v .5 .5 0", "v .5 -.25 0"))
+    code, out, _ = within("compare", square, image, "--map", "--json")
+    report = json.loads(out)
+    assert code == 0
+    assert report["orientation"] == {"kept": 3, "turned_over": 1, "undefined": 0}
+    assert report["area_distortion"] == {"min": 0.5, "max": 2.5, "nulls": 0}
+    (warning,) = report["warnings"]
+    assert (warning["code"], warning["count"], warning["examples"]) == ("turned_over_faces", 1, [0])
+    table = within("compare", square, image, "--map", "--table", "faces=-", "--format", "csv").out.splitlines()
+    assert table[0].split(",")[-2:] == ["area_distortion", "orientation"]
+    assert [row.split(",")[-1] for row in table[1:]] == ["-1", "1", "1", "1"]
+    assert "1 face that the map turns over" in within("compare", square, image, "--map").out
+
+
+def test_the_texture_of_a_file(within: Run, tmp_path: Path) -> None:
+    """A square whose right half is cut off in the texture and turned upside down."""
+    path = tmp_path / "textured.obj"
+    path.write_text(
+        "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 5 5\nvt 6 5\nvt 5 4\n"
+        "vt 6 4\nf 1/1 2/2 5/4\nf 1/1 5/4 4/3\nf 2/5 3/6 6/8\nf 2/5 6/8 5/7\n"
+    )
+    code, out, _ = within("compare", path, "--map", "uv", "--json")
+    report = json.loads(out)
+    assert code == 0
+    assert report["seams"] == 1
+    assert report["orientation"] == {"kept": 4, "turned_over": 0, "undefined": 0}
+    assert report["totals"] == {"dirichlet": 2.0, "area": 2.0, "image_area": 2.0, "nonconformality": 0.0}
+    assert (report["source"]["vertices"], report["image"]["path"]) == (6, "texture coordinates")
+    assert [warning["code"] for warning in report["warnings"]] == ["texture_seams"]
+    rows = within("compare", path, "--map", "uv", "-o", "-", "--format", "csv").out.splitlines()
+    assert [row.split(",")[0] for row in rows] == ["vertex", "0", "1", "1", "2", "3", "4", "4", "5"]
+    code, _, _ = within("compare", tmp_path / "none.obj", "--map", "uv")
+    assert code == 3
+
+
+def test_a_file_without_texture(within: Run, square: Path) -> None:
+    ended = within("compare", square, "--map", "uv")
+    assert ended.code == 3
+    assert "has no texture coordinates" in ended.complaint

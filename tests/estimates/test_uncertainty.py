@@ -113,3 +113,17 @@ def test_meshes_at_the_ends_of_the_range(size: float) -> None:
     np.testing.assert_allclose(scaled, plain, rtol=1e-9)
     default = curvcli.analyze((sample.points * size, sample.faces), ["K_sigma"]).vertices["K_sigma"]
     assert (default < 1e-11).all()
+
+
+def test_the_summary_counts_mean_curvatures_that_noise_explains() -> None:
+    sample = get("plane")(size=400, jitter=0.2)
+    curved = sample.points + np.stack([0 * sample.points[:, 0]] * 2 + [-0.2 * sample.points[:, 0] ** 2], axis=1)
+    result = curvcli.analyze((curved, sample.faces), ["h", "h_sigma"], noise=2.3e-4)
+    h, sigma = result.vertices["h"], result.vertices["h_sigma"]
+    below = int(np.count_nonzero(h < sigma))
+    assert 0 < below < np.count_nonzero(np.isfinite(sigma))
+    (notice,) = [each for each in result.notices if each.code == "below_noise"]
+    assert notice.count == below
+    assert "h_sigma" in notice.message
+    both = curvcli.analyze((curved, sample.faces), ["K_sigma", "h_sigma"], noise=2.3e-4).notices
+    assert len([each for each in both if each.code == "below_noise"]) == 2
