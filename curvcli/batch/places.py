@@ -14,7 +14,7 @@ from urllib.parse import unquote, urlsplit
 from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
 from ..loading.content import open_regular, read_limited, read_stream
 from ..printable import shown
-from .walk import files_of, is_wild
+from .walk import files_of, is_wild, spellings
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
 _NOT_FOUND = 404
@@ -90,7 +90,10 @@ def _expand_url(pattern: str) -> list[str]:
     files, path = _file_system(pattern)
     try:
         # Listings over HTTP have no types: what ends in a slash is a folder.
-        found = [str(name) for name in files.glob(path) if not str(name).endswith("/")]
+        folder, slash, last = path.rpartition("/")
+        paths = [f"{folder}{slash}{spelling}" for spelling in spellings(last)]
+        names = {str(name) for spelt in paths for name in files.glob(spelt)}
+        found = [name for name in names if not name.endswith("/")]
         return sorted(str(files.unstrip_protocol(name)) for name in found if _is_file(files, name))
     except Exception as error:
         raise InputError(f"cannot be listed ({_told(error)})", path=shown(pattern)) from error

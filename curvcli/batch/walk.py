@@ -9,6 +9,9 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
+from ..loading.elsewhere import FORMATS
+
+_PACKED = ".gz"
 _WILD = re.compile(r"[*?[]")
 _ALL = "**"
 
@@ -27,7 +30,8 @@ def is_wild(part: str) -> bool:
 
 
 def files_of(pattern: str) -> list[str]:
-    """The files, sorted by their names; `*` and `?` match no leading dot, `**` matches any number of folders.
+    """The files, sorted by their names; `*` and `?` match no leading dot, `**` matches any number of folders, and
+    suffixes of meshes match in any case and packed too (`spellings`).
 
     A folder that several links lead to, or a link to a folder above itself, is visited once, and a file with several
     names is named once: by a name without links where there is one, else by the first. So the work is proportional to
@@ -60,7 +64,7 @@ def _matches(root: str, parts: list[str]) -> Iterator[tuple[str, int]]:
     """Every file that matches, and how many links lead to it: folders are visited by the fewest."""
     seen: set[tuple[int, int, int]] = set()
     todo = deque([_Visit(root, 0, 0)])
-    tests = [_test(part) for part in parts]
+    tests = [_test([part]) for part in parts[:-1]] + [_test(spellings(parts[-1]))]
     while todo:
         visit = todo.popleft()
         folder, part, links = visit
@@ -103,10 +107,28 @@ def _later(todo: deque[_Visit], visit: _Visit, path: str, part: int, is_link: bo
         todo.appendleft(found)
 
 
-def _test(part: str) -> Callable[[str], bool]:
-    """Whether a name fits a part of the pattern."""
-    fits = re.compile(fnmatch.translate(os.path.normcase(part))).match
-    hidden = part.startswith(".")
+def spellings(part: str) -> list[str]:
+    """The patterns for a part that ends with the suffix of a mesh, in any case and packed too; else the part itself.
+
+    `*.ply` names `A.PLY` and `b.ply.gz`, `*.ply.gz` only what is packed.
+    """
+    packed = part[-len(_PACKED) :] if part.lower().endswith(_PACKED) else ""
+    stem, dot, suffix = part.removesuffix(packed).rpartition(".")
+    if not dot or suffix.lower() not in FORMATS:
+        return [part]
+    plain = f"{stem}.{_any_case(suffix)}"
+    unpacked = [] if packed else [plain]
+    return [*unpacked, f"{plain}{_any_case(_PACKED)}"]
+
+
+def _any_case(letters: str) -> str:
+    return "".join(f"[{c.lower()}{c.upper()}]" if c.isalpha() else c for c in letters)
+
+
+def _test(patterns: list[str]) -> Callable[[str], bool]:
+    """Whether a name fits one of these patterns for a part."""
+    fits = re.compile("|".join(fnmatch.translate(os.path.normcase(one)) for one in patterns)).match
+    hidden = patterns[0].startswith(".")
     return lambda name: (hidden or not name.startswith(".")) and fits(os.path.normcase(name)) is not None
 
 

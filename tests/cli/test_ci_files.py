@@ -51,9 +51,11 @@ def test_the_hook_names_a_command() -> None:
     program, command = hook["entry"].split()
     assert program == "curvcli"
     assert command in COMMANDS
-    assert [bool(re.search(hook["files"], name)) for name in ("a/b.stl", "c.ply", "d.obj", "obj.txt", "a.objx")] == [
-        *(True, True, True),
-        *(False, False),
+    taken = ("a/b.stl", "c.ply", "d.obj", "E.STL", "F.Obj", "g.ply.gz", "H.PLY.GZ")
+    left = ("obj.txt", "a.objx", "a.gz", "stl", "a.ply.gz.bak", "objgz")
+    assert [bool(re.search(hook["files"], name)) for name in (*taken, *left)] == [
+        *(True for _ in taken),
+        *(False for _ in left),
     ]
 
 
