@@ -19,7 +19,7 @@ from .surface import Surface
 Floats = NDArray[np.float64]
 
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
-_DENSITIES = (
+STARS = (
     *("h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2", "kappa_max"),
     *("shape_index", "curvedness", *_ENERGIES),
 )
@@ -75,7 +75,7 @@ def unscaled(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notic
 def beside(chosen: Iterable[str]) -> tuple[str, ...]:
     """The columns by which `of_stars` judges the chosen ones."""
     plain = {name.partition(AT_SCALE)[0] for name in chosen}
-    return () if plain.isdisjoint(_DENSITIES) else ("h_signed",)
+    return () if plain.isdisjoint(STARS) else ("h_signed",)
 
 
 def of_stars(
@@ -149,8 +149,11 @@ def roughness(surface: Surface, columns: Mapping[str, Any]) -> float | None:
 
 
 def creases(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
-    """The sharp edges of a creased mesh: fewer than half of its edges, they carry more than half of Σ|θ||e|, and at
-    least half of all edges are flat beside them. Empty for other meshes."""
+    """The sharp edges of a creased mesh, empty for other meshes.
+
+    They are fewer than half of its edges and carry more than half of Σ|θ||e|, and at least half of all edges are flat
+    beside them; of the others, where they bend by two steps of a coarse tessellation on the average.
+    """
     none = np.empty(0, np.intp)
     if not _bent_at_few(columns):
         return none
@@ -162,8 +165,10 @@ def creases(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
     if not 0 < 2 * count < edges:
         return none
     bend = np.where(known, theta * length, 0.0)
-    flat = int(np.count_nonzero(theta < _FLAT * theta[sharp].mean()))
-    return np.flatnonzero(sharp) if 2 * bend[sharp].sum() > bend.sum() and 2 * flat >= edges else none
+    mean = float(theta[sharp].mean())
+    flat = int(np.count_nonzero(theta < _FLAT * mean))
+    beside = edges if mean < 2 * SHARP else edges - count
+    return np.flatnonzero(sharp) if 2 * bend[sharp].sum() > bend.sum() and 2 * flat >= beside else none
 
 
 def _bent_at_few(columns: Mapping[str, Any]) -> bool:

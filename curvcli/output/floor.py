@@ -14,6 +14,7 @@ from ..cache import cached
 from ..declare import AT_SCALE, Quantity
 from ..pipeline import UNCERTAINTIES, evaluate
 from ..precision import is_single, last_place
+from ..slices import slices
 from ..topology import next_corner
 
 if TYPE_CHECKING:
@@ -60,6 +61,20 @@ def floor(analysis: Analysis, quantity: Quantity, values: Floats) -> Floats | No
         return None
     found = analysis.surface.in_file_unit(bound(rounding), quantity.length_exponent)
     return found * (0.5**quantity.mean_degree if analysis.conventions.mean == "average" else 1.0)
+
+
+def edge_floor(analysis: Analysis, theta: Floats) -> Floats:
+    """(E,) 0, and infinity where rounding of the coordinates may turn the two faces at an edge by all of θ."""
+    edges = analysis.surface.edges
+    place, _, _ = _turns(analysis)
+    found = np.zeros(len(edges))
+    for block in slices(len(edges.pairs[0])):
+        inner = edges.inner_edges(block)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            faces = (inner.one // 3, inner.other // 3)
+            turn = sum(place * _longest(analysis)[face] / analysis.columns["face_area"][face] for face in faces)
+            found[inner.where] = np.where(np.abs(theta[inner.where]) <= 4 * turn + _DEFECT, np.inf, 0.0)
+    return found
 
 
 class _Rounding:
@@ -121,12 +136,20 @@ def _turns(analysis: Analysis) -> tuple[float, Floats, Floats]:
     """The last place of the coordinates, and by how much it may turn the faces of each star and pull at its centre."""
     surface, face_area = analysis.surface, analysis.columns["face_area"]
     place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
-    a, b = (surface.faces.ravel()[corner] for corner in (slice(None), next_corner(np.arange(3 * surface.n_faces))))
-    longest = np.sqrt(sum((x[a] - x[b]) ** 2 for x in surface.xyz)).reshape(-1, 3).max(axis=1)
+    a, longest = surface.faces.ravel(), _longest(analysis)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         turn = np.nan_to_num(8 * place * longest / face_area)
     turned, pulled = (np.bincount(a, np.repeat(each, 3), surface.n_vertices) for each in (turn, turn * longest))
     return place, turned.astype(np.float64), pulled.astype(np.float64)
+
+
+@cached
+def _longest(analysis: Analysis) -> Floats:
+    """(F,) the longest edge of each face."""
+    surface = analysis.surface
+    a, b = (surface.faces.ravel()[corner] for corner in (slice(None), next_corner(np.arange(3 * surface.n_faces))))
+    longest: Floats = np.sqrt(sum((x[a] - x[b]) ** 2 for x in surface.xyz)).reshape(-1, 3).max(axis=1)
+    return longest
 
 
 @cached

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._version import __version__
 from ..plurals import counted
+from ..resolution import STARS
 from .camera import screen
+from .cells import MOST_FACES, own_cells
 from .legend import Colored, about, mesh_name, sentence
 from .look import Look, arrange
 from .panels import draw_bar, draw_title, legend
@@ -47,16 +51,21 @@ def write_picture(
         Lines(edges[surface.nonmanifold_edges], _NONMANIFOLD, thick),
     ]
     plain = np.broadcast_to(np.array(_PLAIN, np.uint8), (surface.n_vertices, 3))
-    pictures = render(
-        screen(surface, look.view, look.up),
-        surface.faces,
-        [one.scale.rgb for one in columns] or [plain],
-        page.picture,
-        background=sheet.background,
-        lines=lines,
-        mesh_color=_MESH if look.edges else None,
-    )
-    for place, pixels in enumerate(pictures):
+    positions = screen(surface, look.view, look.up)
+    draw = partial(render, size=page.picture, background=sheet.background, mesh_color=_MESH if look.edges else None)
+    blended = [place for place, one in enumerate(columns) if not page.cut(one) and one.quantity.on == "vertex"]
+    pictures = draw(positions, surface.faces, [columns[place].scale.rgb for place in blended], lines=lines)
+    shown = dict(zip(blended, pictures, strict=True))
+    for place, one in enumerate(columns):
+        if one.quantity.on == "edge":
+            bent = np.flatnonzero((one.scale.rgb != one.scale.undefined).any(axis=1) & page.unlike_0(one))
+            bent = bent[np.argsort(np.abs(np.nan_to_num(analysis.edges[one.name][bent])), kind="stable")]
+            tinted = Lines(edges[bent], edge_ink, 1.5 * thick, one.scale.rgb[bent])
+            shown[place] = draw(positions, surface.faces, [plain], lines=[*lines, tinted])[0]
+        elif page.cut(one):
+            cells = own_cells(positions, surface.faces, one.scale.rgb, page.flat(one))
+            shown[place] = draw(positions, surface.faces, [], lines=lines, cells=cells)[0]
+    for place, pixels in shown.items() if columns else enumerate(draw(positions, surface.faces, [plain], lines=lines)):
         sheet.image(pixels, *page.corner(place))
     page.draw()
     told = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
@@ -83,6 +92,8 @@ class _Page:
         self.small = max(0.85 * font, 8.0)
         self.margin = round(0.8 * font)
         self.name = mesh_name(analysis)
+        few = analysis.surface.n_faces <= MOST_FACES
+        self.creased = few and any(notice.code == "creased" for notice in analysis.notices)
         self.footer = sheet.flow(self._footer(analysis, edge_ink), sheet.width - 2 * self.margin, self.small)
         foot = len(self.footer) * LINE * self.small + self.margin
         self.panel = int(panel[0]), int((sheet.height - foot) / down)
@@ -93,6 +104,23 @@ class _Page:
         below = rows * LINE * self.small + (2.9 * font if self.bar else 0)
         self.above = 2.0 * font if columns else self.margin
         self.picture = inner, max(16, int(self.panel[1] - self.above - below - 0.4 * font))
+
+    def cut(self, one: Colored) -> bool:
+        """Whether a column is painted in the cells of its vertices: a density of stars on a creased mesh."""
+        return self.creased and one.quantity.name in STARS and one.scale.low is not None
+
+    def flat(self, one: Colored) -> tuple[int, int, int]:
+        """The colour of 0, which flat faces have between the cells; at the end of the map that is nearer to it."""
+        scale = one.scale
+        low, high = scale.low or 0.0, scale.high or 0.0
+        share = min(max(-(low / 2) / (high / 2 - low / 2), 0.0), 1.0) if high > low else 0.5
+        red, green, blue = scale.gradient[round(share * (len(scale.gradient) - 1))].tolist()
+        return red, green, blue
+
+    def unlike_0(self, one: Colored) -> NDArray[np.bool_]:
+        """(n,) whose colour is not that of 0."""
+        different: NDArray[np.bool_] = (one.scale.rgb != np.array(self.flat(one), np.uint8)).any(axis=1)
+        return different
 
     def corner(self, place: int) -> tuple[int, int]:
         """The upper left pixel of the picture in a panel."""
@@ -127,4 +155,6 @@ class _Page:
             items.append(Item(counted(boundary, "boundary edge"), "line", edge_ink))
         if crowded:
             items.append(Item(f"{counted(crowded, 'edge')} of more than two faces", "line", _NONMANIFOLD))
+        if any(map(self.cut, self.columns)):
+            items.append(Item("creased: a vertex colours its own cell, flat faces between have the colour of 0"))
         return [*items, *map(Item, about(analysis, self.columns))]

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import MissingExtraError
+from .cells import Cells
 
 Color = tuple[float, float, float]
 Pixels = NDArray[np.uint8]
@@ -26,11 +27,15 @@ _MESA = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
 
 @dataclass(frozen=True)
 class Lines:
-    """Edges of the surface to be drawn: (n, 2) vertex indices, their colour and their width in pixels."""
+    """Edges of the surface to be drawn: (n, 2) vertex indices, their colour and their width in pixels.
+
+    colors: (n, 3) bytes, where each edge has a colour of its own.
+    """
 
     edges: NDArray[np.integer[Any]]
     color: Color
     width: float
+    colors: NDArray[np.uint8] | None = None
 
 
 def render(
@@ -42,22 +47,28 @@ def render(
     background: Color,
     lines: Sequence[Lines] = (),
     mesh_color: Color | None = None,
+    cells: Cells | None = None,
 ) -> list[Pixels]:
     """The surface once per coloring, (height, width, 3), as large as fits.
 
     positions: (V, 3) to the right, upwards and towards the viewer. colorings: (V, 3) colours of the vertices, blended
-    over each face. mesh_color: of the edges of all faces, None to leave them out.
+    over each face. mesh_color: of the edges of all faces, None to leave them out. cells: what is drawn instead of the
+    faces, once and in its own colours.
     Errors: MissingExtraError where the system has no OpenGL that draws without a display.
     """
     import pyvista as pv
 
+    colorings = list(colorings) if cells is None else [cells.colors]
+    if not colorings:
+        return []
     require_opengl()
     finer = _FINER if max(size) * _FINER <= _LARGEST_BUFFER else 1
-    mesh = pv.PolyData.from_regular_faces(positions.astype(np.float32), faces)
+    points, corners = (positions, faces) if cells is None else (cells.positions, cells.faces)
+    mesh = pv.PolyData.from_regular_faces(points.astype(np.float32), corners)
     plotter = pv.Plotter(off_screen=True, window_size=[side * finer for side in size], lighting="none", border=False)
     try:
         plotter.set_background(_floats(background))
-        mesh["rgb"] = np.zeros((len(positions), 3), np.uint8)
+        mesh["rgb"] = np.zeros((len(points), 3), np.uint8)
         plotter.add_mesh(
             mesh,
             scalars="rgb",
@@ -65,7 +76,7 @@ def render(
             ambient=0.52,
             diffuse=0.48,
             specular=0.0,
-            show_edges=mesh_color is not None,
+            show_edges=mesh_color is not None and cells is None,
             edge_color=None if mesh_color is None else _floats(mesh_color),
             line_width=finer * max(0.75, min(size) / 900),
             copy_mesh=False,
@@ -95,7 +106,11 @@ def _add_lines(plotter: Any, pv: Any, positions: NDArray[np.float64], lines: Lin
     records = np.full((len(lines.edges), 3), 2, np.int64)
     records[:, 1:] = ends.reshape(-1, 2)
     wire.lines = records.ravel()
-    plotter.add_mesh(wire, color=_floats(lines.color), line_width=lines.width * finer, lighting=False)
+    if lines.colors is None:
+        plotter.add_mesh(wire, color=_floats(lines.color), line_width=lines.width * finer, lighting=False)
+    else:
+        wire.cell_data["rgb"] = lines.colors
+        plotter.add_mesh(wire, scalars="rgb", rgb=True, line_width=lines.width * finer, lighting=False)
 
 
 def _floats(color: Color) -> list[float]:

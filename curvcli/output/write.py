@@ -156,7 +156,13 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
 
         colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
     for name in appearance.color_by:
-        _colored_column(name, chosen)
+        quantity = _colored_column(name, chosen)
+        elsewhere = sorted(suffixes & {".ply", ".obj", ".glb", ".vtp", ".vtu", ".hist.png"})
+        if quantity.on == "edge" and elsewhere:
+            raise UsageError(
+                f"--color-by {name}: a column of edges, for which {elsewhere[0]} has no colours; a picture (.png) and "
+                "a page (.html) show it, --table edges=PATH holds it"
+            )
 
 
 def _columns(chosen: list[str]) -> dict[str, Quantity]:
@@ -165,24 +171,33 @@ def _columns(chosen: list[str]) -> dict[str, Quantity]:
 
 
 def _colored_column(name: str, chosen: list[str]) -> Quantity:
-    """The quantity whose column colours the mesh."""
+    """The quantity whose column colours the mesh, or its edges: these are computed with every table of edges."""
     columns = _columns(chosen)
+    along = {column: q for q in passes.quantities("edge") for column in q.columns if q.stem == column}
+    if name in along and name not in columns:
+        return along[name]
     if name not in columns:
         offered = _columns([quantity.name for quantity in passes.quantities("vertex")])
         if name in offered:
             raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
-        way_out = suggestion(name, offered, "`curvcli passes` lists them")
-        raise UsageError(f"--color-by {name}: no such column of vertices{way_out}")
+        way_out = suggestion(name, [*offered, *along], "`curvcli passes` lists them")
+        raise UsageError(f"--color-by {name}: no such column of vertices or edges{way_out}")
     return columns[name]
 
 
 def colored(analysis: Analysis, name: str, appearance: Appearance) -> Colored:
     """A column with the colours that it has in every output."""
     from .colors import categorize, colorize
-    from .floor import floor
+    from .floor import edge_floor, floor
     from .legend import Colored
 
     quantity = _colored_column(name, analysis.chosen)
+    if quantity.on == "edge":
+        values, theta = (analysis.edges[key].astype(np.float64) for key in (name, "theta"))
+        flat = edge_floor(analysis, theta) if quantity.signed else None
+        cmap, value_range = appearance.cmap, appearance.value_range
+        scale = colorize(values, cmap=cmap, value_range=value_range, signed=quantity.signed, floor=flat)
+        return Colored(name, quantity, scale)
     if quantity.labels:
         return Colored(name, quantity, categorize(analysis.columns[name], quantity.labels))
     values = np.where(analysis.surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
@@ -199,7 +214,10 @@ def colored(analysis: Analysis, name: str, appearance: Appearance) -> Colored:
 
 def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale] | None:
     """The column that colours the surface and its colours; None when no column was computed."""
-    chosen = appearance.color_by[:1] or tuple(name for name in _COLOR_BY if name in analysis.chosen)[:1]
+    chosen = (
+        tuple(name for name in appearance.color_by if name in _columns(analysis.chosen))[:1]
+        or tuple(name for name in _COLOR_BY if name in analysis.chosen)[:1]
+    )
     return (chosen[0], colored(analysis, chosen[0], appearance).scale) if chosen else None
 
 

@@ -1,0 +1,50 @@
+"""Faces cut apart for pictures of creased meshes, so that the colour of a vertex stays in its own surroundings."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Colors = NDArray[np.uint8]
+
+# More faces are drawn whole: their cells would be smaller than a pixel.
+MOST_FACES = 400_000
+
+
+class Cells(NamedTuple):
+    """Triangles with corners of their own: positions (n, 3), faces (m, 3), colors (n, 3)."""
+
+    positions: Floats
+    faces: NDArray[np.int32]
+    colors: Colors
+
+
+def own_cells(positions: Floats, faces: NDArray[np.int32], colors: Colors, between: tuple[int, int, int]) -> Cells:
+    """Every corner of a face in the colour of its vertex as far as half the shortest edge there; the rest in another.
+
+    A density of a creased mesh belongs to its edges and corners; between them the faces are flat, however large.
+    """
+    corner = positions[faces]
+    ahead = corner[:, [1, 2, 0]]
+    length = np.sqrt(((ahead - corner) ** 2).sum(axis=2))
+    reach = np.full(len(positions), np.inf)
+    for tail, head in ((0, 1), (1, 2), (2, 0)):
+        np.minimum.at(reach, faces[:, tail], length[:, tail])
+        np.minimum.at(reach, faces[:, head], length[:, tail])
+    reach = 0.5 * reach[faces]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        out = np.nan_to_num(np.minimum(reach / length, 0.5))[..., None]
+        back = np.nan_to_num(np.minimum(reach[:, [1, 2, 0]] / length, 0.5))[..., None]
+    # Of each edge the points where the cell of its tail ends and that of its head begins.
+    leave, enter = corner + out * (ahead - corner), ahead + back * (corner - ahead)
+    tips = np.stack([corner, leave, enter[:, [2, 0, 1]]], axis=2)
+    rim = np.stack([leave, enter], axis=2).reshape(-1, 6, 3)
+    inner = rim[:, [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5]].reshape(-1, 4, 3, 3)
+    points = np.concatenate([tips.reshape(-1, 3), inner.reshape(-1, 3)])
+    tinted = np.repeat(colors[faces].reshape(-1, 3), 3, axis=0)
+    plain = np.broadcast_to(np.array(between, np.uint8), (len(points) - len(tinted), 3))
+    found = np.arange(len(points), dtype=np.int32).reshape(-1, 3)
+    return Cells(points, found, np.concatenate([tinted, plain]))

@@ -1,0 +1,119 @@
+"""Pictures of creased meshes: edges in the colours of their bend, and flat sides that are not painted as curved."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import curvcli
+from curvcli.analysis import Analysis
+from curvcli.errors import UsageError
+from curvcli.output.cells import own_cells
+from curvcli.output.look import Look
+from curvcli.output.write import Appearance, check_appearance, colored
+from tests import meshes
+from tests.cli.program import curvcli as program
+from tests.meshes import Mesh
+from tests.output.images import near, opengl
+from tests.output.test_pictures import picture, seen
+
+__all__ = ["opengl"]
+pytestmark = pytest.mark.usefixtures("opengl")
+
+
+def tin(n: int = 48) -> Mesh:
+    """A closed cylinder as CAD tessellates it: every vertex on a rim, the flat sides fans from one of them."""
+    angle = 2 * np.pi * np.arange(n) / n
+    rim = np.column_stack([np.cos(angle), np.sin(angle)])
+    points = np.concatenate([np.column_stack([rim, np.full(n, z)]) for z in (-0.5, 0.5)])
+    k = np.arange(n)
+    ahead = (k + 1) % n
+    sides = np.concatenate([np.stack([k, ahead, ahead + n], 1), np.stack([k, ahead + n, k + n], 1)])
+    inner = np.arange(1, n - 1)
+    top = np.stack([0 * inner + n, inner + n, inner + n + 1], 1)
+    return meshes.mesh(points, np.concatenate([sides, top, top[:, ::-1] - n]))
+
+
+def analysed(mesh: Mesh) -> Analysis:
+    return curvcli.analyze((mesh.points, mesh.faces), ["core", "curvedness"])
+
+
+@pytest.mark.parametrize("column", ["h_signed", "K_density", "curvedness", "kappa_1"])
+def test_the_flat_side_of_a_cylinder_is_not_painted_as_curved(column: str) -> None:
+    """Seen from above, all but a narrow rim has the colour of 0."""
+    analysis = analysed(tin())
+    assert "creased" in {notice.code for notice in analysis.notices}
+    scale = colored(analysis, column, Appearance()).scale
+    flat = scale.gradient[len(scale.gradient) // 2 if scale.signed else 0]
+    pixels = seen(analysis, color_by=(column,), look=Look(view="top", size=(800, 800)))
+    height, width = pixels.shape[:2]
+    middle = pixels[height // 2 - 150 : height // 2 + 100, width // 2 - 120 : width // 2 + 120, :3]
+    assert near(middle, tuple(int(part) for part in flat), 24).mean() > 0.99
+
+
+def test_edges_have_the_colours_of_theta() -> None:
+    analysis = analysed(tin())
+    _, told = picture(analysis, color_by=("theta",), look=Look(size=(800, 800)))
+    assert told[0].split("theta: ")[1].startswith("−1.571 to 1.571")
+    scale = colored(analysis, "theta", Appearance()).scale
+    assert len(scale.rgb) == len(analysis.surface.edges)
+    pixels = seen(analysis, color_by=("theta",), look=Look(size=(800, 800)))
+    sharp = near(pixels[..., :3], tuple(int(part) for part in scale.gradient[-1]), 20)
+    assert 500 < sharp.sum() < 20000
+    both = seen(analysis, color_by=("theta", "h_signed", "kappa_across"), look=Look(size=(1200, 500)))
+    assert both.shape[1] == 1200
+
+
+def test_flat_edges_are_rounding() -> None:
+    flat = meshes.grid(12)
+    turned = (flat.points * [1, 1, 0]) @ np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
+    analysis = curvcli.analyze((turned, flat.faces), "core")
+    for name in ("theta", "kappa_across", "H_theta"):
+        scale = colored(analysis, name, Appearance()).scale
+        assert (scale.low, scale.high) == (0.0, 0.0)
+        assert scale.rounded is not None
+
+
+def test_coloured_meshes_have_no_edges() -> None:
+    for suffix in (".ply", ".glb", ".hist.png"):
+        with pytest.raises(UsageError, match="theta: a column of edges"):
+            check_appearance(Appearance(color_by=("theta",)), ["K"], [suffix])
+    with pytest.raises(UsageError, match="theta"):
+        check_appearance(Appearance(color_by=("thta",)), ["K"], [".png"])
+    check_appearance(Appearance(color_by=("theta",)), ["K"], [".png", ".csv"])
+
+
+def test_smooth_meshes_are_blended_as_before() -> None:
+    torus = meshes.of_sample("torus", size=300)
+    analysis = curvcli.analyze((torus.points, torus.faces), "core")
+    colors = np.unique(
+        seen(analysis, color_by=("h_signed",), look=Look(size=(600, 600)))[..., :3].reshape(-1, 3), axis=0
+    )
+    assert len(colors) > 2000
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_cells_tile_the_faces(seed: int) -> None:
+    mesh = meshes.grid(6, seed)
+    colors = np.random.default_rng(seed).integers(0, 200, (len(mesh.points), 3)).astype(np.uint8)
+    cells = own_cells(mesh.points, mesh.faces, colors, (255, 0, 0))
+
+    def areas(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+        a, b, c = (points[faces[:, k]] for k in range(3))
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+    assert areas(cells.positions, cells.faces).sum() == pytest.approx(areas(mesh.points, mesh.faces).sum(), rel=1e-12)
+    tinted = (cells.colors != [255, 0, 0]).any(axis=1)
+    nearest = np.linalg.norm(cells.positions[tinted][:, None] - mesh.points[None], axis=2).argmin(axis=1)
+    own = (cells.colors[tinted] == colors[nearest]).all(axis=1)
+    assert own.mean() > 0.8  # the tips themselves, and all ends but those that two cells share
+
+
+def test_by_the_command_line(tmp_path: Path) -> None:
+    path = tin().write(tmp_path / "tin.obj")
+    ended = program("analyze", path, "-o", tmp_path / "x.png", "-o", tmp_path / "x.html", "--color-by", "theta")
+    assert ended.code == 0
+    refused = program("analyze", path, "-o", tmp_path / "x.ply", "--color-by", "theta")
+    assert (refused.code, "a picture (.png)" in refused.complaint) == (2, True)
