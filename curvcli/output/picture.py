@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +12,11 @@ from .._version import __version__
 from ..plurals import counted
 from ..resolution import STARS
 from .camera import screen
-from .cells import MOST_FACES, own_cells
+from .cells import MOST_FACES, Cells, own_cells
 from .legend import Colored, about, mesh_name, sentence
 from .look import Look, arrange
 from .panels import draw_bar, draw_title, legend
-from .render import Lines, render
+from .render import Lines, Pixels, render
 from .sheet import LINE, Color, Item, Sheet
 
 if TYPE_CHECKING:
@@ -52,20 +51,26 @@ def write_picture(
     ]
     plain = np.broadcast_to(np.array(_PLAIN, np.uint8), (surface.n_vertices, 3))
     positions = screen(surface, look.view, look.up)
-    draw = partial(render, size=page.picture, background=sheet.background, mesh_color=_MESH if look.edges else None)
+    settings: dict[str, Any] = {"background": sheet.background, "mesh_color": _MESH if look.edges else None}
+
+    def draw(
+        colorings: Sequence[NDArray[np.uint8]], lines: Sequence[Lines], cells: Cells | None = None
+    ) -> list[Pixels]:
+        return render(positions, surface.faces, colorings, page.picture, lines=lines, cells=cells, **settings)
+
     blended = [place for place, one in enumerate(columns) if not page.cut(one) and one.quantity.on == "vertex"]
-    pictures = draw(positions, surface.faces, [columns[place].scale.rgb for place in blended], lines=lines)
+    pictures = draw([columns[place].scale.rgb for place in blended], lines)
     shown = dict(zip(blended, pictures, strict=True))
     for place, one in enumerate(columns):
         if one.quantity.on == "edge":
             bent = np.flatnonzero((one.scale.rgb != one.scale.undefined).any(axis=1) & page.unlike_0(one))
             bent = bent[np.argsort(np.abs(np.nan_to_num(analysis.edges[one.name][bent])), kind="stable")]
             tinted = Lines(edges[bent], edge_ink, 1.5 * thick, one.scale.rgb[bent])
-            shown[place] = draw(positions, surface.faces, [plain], lines=[*lines, tinted])[0]
+            shown[place] = draw([plain], [*lines, tinted])[0]
         elif page.cut(one):
             cells = own_cells(positions, surface.faces, one.scale.rgb, page.flat(one))
-            shown[place] = draw(positions, surface.faces, [], lines=lines, cells=cells)[0]
-    for place, pixels in shown.items() if columns else enumerate(draw(positions, surface.faces, [plain], lines=lines)):
+            shown[place] = draw([], lines, cells)[0]
+    for place, pixels in shown.items() if columns else enumerate(draw([plain], lines)):
         sheet.image(pixels, *page.corner(place))
     page.draw()
     told = [sentence(one, value_range, analysis.conventions.unit) for one in columns]

@@ -181,7 +181,7 @@ def _colored_column(name: str, chosen: list[str]) -> Quantity:
         if name in offered:
             raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
         way_out = suggestion(name, [*offered, *along], "`curvcli passes` lists them")
-        raise UsageError(f"--color-by {name}: no such column of vertices or edges{way_out}")
+        raise UsageError(f"--color-by {name}: no such column of vertices{way_out}")
     return columns[name]
 
 
