@@ -264,4 +264,5 @@ def test_a_coordinate_that_is_no_number(value: float) -> None:
 
 
 def test_a_sound_mesh_has_no_warning() -> None:
-    assert set(warned(meshes.zoo("ellipsoid"))) <= {"clamped_radicand"}
+    """But of its own coarseness: two rings of its 40 vertices reach round half of it."""
+    assert set(warned(meshes.zoo("ellipsoid"))) <= {"clamped_radicand", "no_graph"}

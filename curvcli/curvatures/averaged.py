@@ -80,8 +80,10 @@ def K_ring(surface: Surface, ring_K: Column, ring_area: Column) -> Column:
 def h_ring(
     surface: Surface, ring_H_vec: VectorColumn, ring_vector: VectorColumn, ring_area: Column, ring_extent: Column
 ) -> Column:
-    """Mean curvature κ₁ + κ₂ of the neighbourhood, positive where convex; null where |ΣA_vec| < 1e-12 ΣA, and where
-    ΣH_vec and ΣA_vec are at right angles to rounding, so that there is no sign."""
+    """Mean curvature κ₁ + κ₂ of the neighbourhood, positive where convex; null where |ΣA_vec| < 1e-12 ΣA.
+
+    Also null where ΣH_vec and ΣA_vec are at right angles to rounding, so that there is no sign.
+    """
     length = np.sqrt(dot(ring_vector, ring_vector))
     size = ratio(np.sqrt(dot(ring_H_vec, ring_H_vec)), length, pointed(surface.interior, length, ring_area))
     return null_where(surface.without_orientation, with_sign(size, ring_H_vec, ring_vector, ring_extent))
