@@ -131,18 +131,18 @@ def h_signed(
 ) -> Column:
     """The mean curvature H = κ₁ + κ₂ with its sign: +2/r on a sphere of radius r seen from outside.
 
-    Null where |H·A| < 1e-12 |H||A| and H is not 0: the sign would be rounding. On saddle-like and minimal meshes, whose
-    two normals can be at right angles, h_perp is the signed value, which is continuous.
+    Null where |H·A| < 1e-12 |H||A| and H is not 0: the sign would be rounding; 0 where H is rounding itself. On
+    saddle-like and minimal meshes, whose two normals can be at right angles, h_perp is the signed value, which is
+    continuous.
     """
     return null_where(without_orientation, with_sign(h, H_vec, star_vector, star_extent))
 
 
 def with_sign(size: Column, H_vec: VectorColumn, vector: VectorColumn, extent: Column) -> Column:
-    """Mean curvatures of a size |**H**|/|**A**|, positive where **H**·**A** < 0; NaN where that sign is rounding and
-    **H** is not.
+    """Mean curvatures of a size |**H**|/|**A**|, positive where **H**·**A** < 0; where that sign is rounding NaN, or 0
+    if **H** is rounding too.
 
-    extent: (n,) of the faces that **H** and **A** are summed from, to which the rounding of **H** is proportional. An
-    **H** below it is 0, and so is the size, whatever its sign.
+    extent: (n,) of the faces that **H** and **A** are summed from, to which the rounding of **H** is proportional.
     """
     product, square = dot(H_vec, vector), dot(H_vec, H_vec)
     signed = 0.0 - size
@@ -153,7 +153,7 @@ def with_sign(size: Column, H_vec: VectorColumn, vector: VectorColumn, extent: C
     room = extent * extent
     lost = product < np.maximum(LOST**2 * square, _ROUNDING**2 * room) * square
     if lost.any():
-        signed[lost & (square > LOST**2 * room)] = np.nan
+        signed[lost] = np.where(square[lost] > LOST**2 * room[lost], np.nan, 0.0)
     return signed
 
 
