@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
+from curvcli.samples.assembled import boundary
 from tests import meshes
 from tests.meshes import Mesh, mesh
 
@@ -32,6 +33,12 @@ def box(low: Sequence[float], high: Sequence[float]) -> Mesh:
     corners = np.array(list(product(*zip(low, high, strict=True))), float)
     squares = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     return outward(mesh(corners, [[q[0], *q[k : k + 2]] for q in squares for k in (1, 2)]))
+
+
+def block(cut: int) -> Mesh:
+    """The unit cube, each side cut into cut² squares."""
+    points, faces = boundary(np.ones((cut, cut, cut), bool))
+    return mesh(points / cut, faces)
 
 
 def prism(start: float, end: float) -> Mesh:

@@ -280,3 +280,24 @@ def test_many_patches_take_little_time(around: Mesh | None) -> None:
     assert not len(surface.solids.crossing)
     assert depth.sum() == (0 if around is None else 22**3)
     assert time.process_time() - begun < 30
+
+
+def test_a_bed_of_touching_bodies_takes_little_time() -> None:
+    """Walls are no contact that has to be looked at, and large ones are looked at in places."""
+    cells = [box([i, j, k], [i + 1, j + 1, k + 1]) for i in range(10) for j in range(10) for k in range(10)]
+    fine = nests.block(30)
+    for parts in (cells, [fine, fine.moved(fine.points @ np.diag([-1.0, 1, 1]) + [2, 0, 0])]):
+        made, _ = together(parts)
+        begun = time.process_time()
+        solids = made.surface().solids
+        assert not solids.depth.any()
+        assert not len(solids.crossing)
+        assert time.process_time() - begun < 20
+
+
+def test_a_flat_patch_that_crosses_a_body() -> None:
+    """Two triangles back to back have no volume and no thickness, and still cross."""
+    sheet = meshes.mesh([[0.5, 0.5, 0.5], [2, 0.5, 0.5], [2, 0.8, 0.5]], [[0, 1, 2], [0, 2, 1]])
+    surface = together([UNIT, sheet])[0].surface()
+    assert surface.solids.crossing.tolist() == [[0, 1]]
+    assert not surface.inside_out.any()

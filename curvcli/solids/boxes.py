@@ -31,14 +31,16 @@ class BoxTree:
         self.groups = groups
         self.order = _along_a_curve(low, high, group, groups)
         count = np.bincount(group, minlength=groups)
-        self._low, self._high, self._first = [low[:, self.order]], [high[:, self.order]], [_starts(count)]
+        # Rows that are not contiguous would be copied whole for every few that are taken of them.
+        self._low, self._high = ([np.ascontiguousarray(rows[:, self.order])] for rows in (low, high))
+        self._first = [_starts(count)]
         while count.max() > 1:
             fewer = -(-count // _WIDTH)
             first, below = _starts(fewer), self._first[-1]
             number = np.arange(first[-1]) - np.repeat(first[:-1], fewer)
             start = np.repeat(below[:-1], fewer) + _WIDTH * number
-            self._low.append(np.minimum.reduceat(self._low[-1], start, axis=1))
-            self._high.append(np.maximum.reduceat(self._high[-1], start, axis=1))
+            self._low.append(np.ascontiguousarray(np.minimum.reduceat(self._low[-1], start, axis=1)))
+            self._high.append(np.ascontiguousarray(np.maximum.reduceat(self._high[-1], start, axis=1)))
             self._first.append(first)
             count = fewer
 

@@ -146,11 +146,12 @@ def samples(sides: Sides, contacts: Contacts, most: int) -> Samples:
     """Points of faces in contact: the middles, and points on and beside the pieces into which contact cuts their edges.
 
     Where faces cross along their edges only, edges or what is beside them lie inside and outside.
-    most: pairs of faces that are looked at, evenly spread over all.
+    most: pairs of faces that are looked at of each pair of surfaces, evenly spread over all.
     """
-    chosen = np.arange(len(contacts.pair))
-    if len(chosen) > most:
-        chosen = np.linspace(0, len(chosen) - 1, most).astype(np.int64)
+    order = np.argsort(contacts.pair, kind="stable")
+    count = np.bincount(contacts.pair)
+    rank = np.arange(len(order)) - (np.cumsum(count) - count)[contacts.pair[order]]
+    chosen = order[rank % -(-count // most)[contacts.pair[order]] == 0]
     pair, f, g = contacts.pair[chosen], contacts.one[chosen], contacts.other[chosen]
     corners = sides.corners(f), sides.corners(g)
     found = []

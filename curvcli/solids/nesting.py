@@ -16,8 +16,8 @@ from .boxes import BoxTree
 from .contacts import find_contacts, samples
 from .sides import INSIDE, OUTSIDE, ROUNDING, Floats, Ints, Mask, Sides
 
-# Pairs of faces in contact that are looked at for points on both sides.
-_CONTACTS = 200_000
+# Pairs of faces in contact, of two surfaces, that are looked at for points on both sides.
+_CONTACTS = 20_000
 # Points of a surface that are tried, more each time, until one does not lie on the other surface.
 _TRIED = (1, 32, 4096)
 
@@ -51,6 +51,7 @@ def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integ
     pairs = np.sort(
         np.concatenate([np.zeros((2, 0), np.int64), *map(np.stack, (x[1:] for x in meeting))], axis=1), axis=0
     )
+    pairs = pairs[:, _deep(low, high, *pairs)]
     if not pairs.size:
         return Nesting(np.zeros(n, np.int64), np.zeros((0, 2), np.int64))
     one, other = pairs[:, np.lexsort(pairs[::-1])]
@@ -72,12 +73,22 @@ def _boxes(
     low, high = np.full((3, n), np.inf), np.full((3, n), -np.inf)
     for block in slices(len(faces)):
         inside = np.flatnonzero(surface[block] >= 0)
-        which = surface[block][inside]
+        which, corners = surface[block][inside], faces[block][inside].T.astype(np.intp)
         for axis in range(3):
-            corners = xyz[axis].take(faces[block][inside])
-            np.minimum.at(low[axis], which, corners.min(axis=1))
-            np.maximum.at(high[axis], which, corners.max(axis=1))
+            a, b, c = (xyz[axis].take(corner) for corner in corners)
+            np.minimum.at(low[axis], which, np.minimum(np.minimum(a, b), c))
+            np.maximum.at(high[axis], which, np.maximum(np.maximum(a, b), c))
     return low, high
+
+
+def _deep(low: Floats, high: Floats, one: Ints, other: Ints) -> Mask:
+    """Whether boxes have more in common than a wall, beyond rounding: others belong to bodies side by side."""
+    reach = ROUNDING * np.maximum(np.abs(low), np.abs(high))
+    rounding = np.maximum(reach[:, one], reach[:, other])
+    depth = np.minimum(high[:, one], high[:, other]) - np.maximum(low[:, one], low[:, other])
+    thickness = np.minimum((high - low)[:, one], (high - low)[:, other])
+    deep: Mask = np.all((depth > rounding) | (thickness <= rounding), axis=0)
+    return deep
 
 
 class _Search:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -68,10 +69,11 @@ class Sides:
         low, high = np.empty((3, len(group))), np.empty((3, len(group)))
         self.reach = np.empty(len(group))
         for block in slices(len(group)):
-            corners = [xyz[:, corner[block]] for corner in self.faces]
-            turned = np.stack([self._turned(corner) for corner in corners])
-            low[:, block], high[:, block] = turned.min(axis=0), turned.max(axis=0)
-            self.reach[block] = np.abs(np.stack(corners)).max(axis=(0, 1))
+            corners = [np.array([x.take(corner[block]) for x in xyz]) for corner in self.faces]
+            a, b, c = (self._turned(corner) for corner in corners)
+            np.minimum(np.minimum(a, b), c, out=low[:, block])
+            np.maximum(np.maximum(a, b), c, out=high[:, block])
+            self.reach[block] = reduce(np.maximum, (np.abs(row) for corner in corners for row in corner))
         # Turned coordinates are rounded, and contact counts within the rounding of the coordinates.
         margin = 16 * EPSILON * max(np.abs(low).max(), np.abs(high).max()) + 4 * ROUNDING * self.reach.max()
         self.tree = BoxTree(low - margin, high + margin, group, groups)
