@@ -12,6 +12,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from .blocks import Floats, dot, span
+from .errors import InputError
 from .settings import Scale
 from .slices import slices
 from .surface import Surface
@@ -27,6 +28,9 @@ _LARGEST_BLOCK = 1 << 25
 _USUAL, _ALWAYS = 64, 1 << 10
 
 Pattern = csr_array
+
+# Vertices around each, as a usual mesh has them, beyond which time would be out of proportion to the mesh.
+_MOST_EXPECTED = 10_000
 
 # Neighbourhoods that several passes look at are kept while they have no more entries than this (5 bytes each).
 _MOST_KEPT = 1 << 26
@@ -80,6 +84,8 @@ def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Patt
     for block in slices(surface.n_vertices, size):
         for place, rows in _grown(grow, block):
             entries += rows.nnz
+            if scale.kind != "rings" and entries > _MOST_EXPECTED * surface.n_vertices:
+                raise _too_far(surface, f"more than {_MOST_EXPECTED:,}")
             if entries <= _MOST_KEPT:
                 found.append((place, rows))
             else:
@@ -87,6 +93,14 @@ def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Patt
             yield place, rows
     if entries <= _MOST_KEPT:
         _KEPT[surface] = scale, found
+
+
+def _too_far(surface: Surface, count: str) -> InputError:
+    return InputError(
+        f"the radius takes in {count} vertices around each, at most {_MOST_EXPECTED:,} expected",
+        path=surface.file.path if surface.file is not None else None,
+        hint="a smaller --radius, or a coarser mesh",
+    )
 
 
 def forget(surface: Surface) -> None:
@@ -134,7 +148,9 @@ class _Balls:
         self.radius = radius_of(surface, scale)
         mean = mean_edge_length(surface)
         reach = self.radius / mean if mean > 0 else 1.0
-        self.expected = int(4 * min(reach, 1e3) ** 2) + 1
+        self.expected = min(int(4 * min(reach, 1e3) ** 2) + 1, surface.n_vertices)
+        if self.expected > _MOST_EXPECTED:
+            raise _too_far(surface, f"about {self.expected:,}")
         self.most = max(_USUAL * self.expected, _ALWAYS)
         self.degree = np.diff(self.near.indptr).astype(np.float64)
 

@@ -12,6 +12,7 @@ import numpy as np
 import polars as pl
 import pytest
 
+import curvcli
 from curvcli.errors import InputError
 from curvcli.loading import weld
 from curvcli.loading.stored import read_stored_table
@@ -174,3 +175,32 @@ def test_a_long_name_on_every_face(tmp_path: Path) -> None:
         found = cost(*words, f"faces=t.{suffix}", folder=tmp_path)
         assert (found.code, found.err) == (0, "")
         assert (tmp_path / f"t.{suffix}").stat().st_size < 2 * MEGABYTE
+
+
+@pytest.mark.parametrize("radius", ["1e9", "200e"])
+def test_a_radius_larger_than_the_mesh(radius: str, tmp_path: Path) -> None:
+    """Every vertex has the whole mesh around it, whose mean is the same everywhere; or the radius is refused."""
+    for size in (1000, 12_000):
+        assert run("sample", "icosphere", "--size", str(size), "-q", "-o", tmp_path / f"{size}.ply").code == 0
+    words = ("--radius", radius, "-p", "K_ring", "-q", "-o")
+    assert run("analyze", tmp_path / "1000.ply", *words, tmp_path / "k.csv").code == 0
+    mean = pl.read_csv(tmp_path / "k.csv")["K_ring"].to_numpy()
+    area = float(run("analyze", tmp_path / "1000.ply", "--get", "totals.area").out)
+    assert np.allclose(mean, 4 * np.pi / area, rtol=1e-12, atol=0)
+    ended = run("analyze", tmp_path / "12000.ply", *words, tmp_path / "l.csv")
+    assert ended.code == 3
+    assert "12000.ply: the radius takes in about " in ended.complaint
+
+
+def test_a_radius_that_takes_in_more_than_it_seems(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A crowd within the radius of each other, in a mesh whose other edges are long."""
+    from curvcli import neighbourhoods
+    from curvcli.settings import parse_radius
+
+    monkeypatch.setattr(neighbourhoods, "_MOST_EXPECTED", 100)
+    random = np.random.default_rng(3)
+    points = np.concatenate([1e-3 * random.random((600, 3)), 1e3 * random.random((60, 3))])
+    faces = np.stack([np.arange(658), np.arange(1, 659), np.arange(2, 660)], axis=1)
+    surface = curvcli.Surface(points, faces)
+    with pytest.raises(InputError, match="the radius takes in more than 100 vertices"):
+        list(neighbourhoods.neighbourhoods(surface, parse_radius("1")))
