@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import sys
@@ -39,6 +40,29 @@ def require_polars(data: int) -> None:
 
 
 _used = False
+
+
+def bound(memory: int) -> None:
+    """Bound the address space of this process at what it takes now, polars at work included, and this much more."""
+    global _bounded
+    require_polars(0)
+    import polars as pl
+
+    pl.DataFrame({"x": [1.0]}).lazy().select(pl.col("x").sum()).collect()
+    with contextlib.suppress(ImportError, OSError):
+        import resource
+
+        limit = address_space() + memory
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+        _bounded = True
+
+
+def is_bounded() -> bool:
+    """Whether `bound` has done so."""
+    return _bounded
+
+
+_bounded = False
 
 
 def ran_out(error: BaseException) -> bool:

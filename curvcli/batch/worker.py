@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib
 import os
 import signal
@@ -29,6 +28,7 @@ def main() -> None:
     todo: SimpleQueue[Task] = SimpleQueue()
     threading.Thread(target=_listen, args=(tasks, todo), daemon=True).start()
 
+    from ..memory import bound
     from ..pipeline import load_passes
     from .run import run
 
@@ -37,7 +37,7 @@ def main() -> None:
     for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
         importlib.import_module(name)
     if limits.memory is not None:
-        _limit(limits.memory)
+        bound(limits.memory)
     _answer(answers, Ready(__version__))
     while True:
         task = todo.get()
@@ -61,18 +61,3 @@ def _answer(stream: BinaryIO, answer: Ready | Done) -> None:
         send(stream, answer)
     except BrokenPipeError:
         os._exit(0)
-
-
-def _limit(memory: int) -> None:
-    """Bound the address space at what the program itself takes and this much more."""
-    from ..memory import address_space, require_polars
-
-    require_polars(0)
-    import polars as pl
-
-    pl.DataFrame({"x": [1.0]}).lazy().select(pl.col("x").sum()).collect()
-    with contextlib.suppress(ImportError, OSError):
-        import resource
-
-        limit = address_space() + memory
-        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))

@@ -14,6 +14,7 @@ from ..exits import FAILED_CHECK, OK, exit_code, exit_code_of_one, stops_all, wo
 from ..loading.limits import parse_weld
 from ..memory import ran_out
 from . import options
+from .bounds import bounded
 from .configured import configuration
 from .stems import stem
 from .talk import internal, say
@@ -57,6 +58,7 @@ if TYPE_CHECKING:
 @options.force
 @options.strict
 @options.talking
+@bounded
 def command(meshes: tuple[str, ...], as_json: bool, get: tuple[str, ...], **settings: Any) -> int:
     """Compute the curvatures of each MESH, check the identities they keep, and say so.
 

@@ -14,6 +14,7 @@ from ..exits import exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
 from ..memory import ran_out
 from . import options
+from .bounds import bounded
 from .configured import configuration
 from .talk import internal, say
 from .wanted import stdin_once
@@ -64,6 +65,7 @@ _TOLD = 20
 @options.schema
 @options.force
 @options.talking
+@bounded
 def command(meshes: tuple[str, ...], **settings: Any) -> int:
     """Check each MESH; exit with 0 if everything holds and 1 if something fails.
 

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 from ..exits import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
+from .bounds import bounded
 from .configured import configuration
 from .wanted import one_stdout, tables_and_reports, tell
 
@@ -84,6 +85,7 @@ _CONVENTIONS = (
 @options.force
 @options.schema
 @options.talking
+@bounded
 def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     """What differs between A and B beyond tolerance: topology, totals, checks, columns. Exits with 1 if anything does.
 

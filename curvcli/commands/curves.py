@@ -11,6 +11,7 @@ import click
 from ..exits import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
+from .bounds import bounded
 from .wanted import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ TABLES = ("curves", "vertices", "links")
 @options.strict
 @options.schema
 @options.talking
+@bounded
 def command(file: str, **settings: Any) -> int:
     """Length, turning, torsion, frames, writhe, linking and holonomy of the boundary loops and `l` records of FILE.
 

@@ -12,9 +12,9 @@ from typing import Any, NoReturn
 import click
 
 from .._version import __version__
-from ..errors import CurvcliError, UsageError
+from ..errors import CurvcliError, InputError, UsageError
 from ..exits import FAILED_CHECK, INPUT, INTERNAL, INTERRUPTED, OK, USAGE, exit_code
-from ..memory import NUMPY, ran_out, require
+from ..memory import NUMPY, is_bounded, ran_out, require
 from .allocation import keep_memory
 from .config import META, configure
 from .configured import blamed
@@ -156,12 +156,15 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
 
 def interrupted(ending: Ending) -> int:
     """Say so; the exit code."""
-    say("interrupted")
+    if not ending.adopted:
+        say("interrupted")
     return ending.code
 
 
 def explain(error: BaseException) -> int:
     """Say in one line why the program ends; the exit code."""
+    if is_bounded() and ran_out(error):
+        error = InputError("needs more memory than --max-memory allows", hint="a larger limit takes it")
     match error:
         case click.exceptions.Exit():
             return error.exit_code

@@ -128,6 +128,15 @@ input_format = click.option(
 )
 max_faces = click.option("--max-faces", type=click.IntRange(1), help="Refuse meshes with more polygons than this.")
 max_bytes = click.option("--max-bytes", type=click.IntRange(1), help="Refuse files larger than this, unpacked.")
+timeout = click.option(
+    "--timeout", metavar="SECONDS", type=Finite(0, 1e9, min_open=True), help="Give up what takes longer."
+)
+max_memory = click.option(
+    "--max-memory",
+    metavar="MB",
+    type=click.IntRange(512, 1 << 40),
+    help="Give up what needs more than this beside the program itself. Linux only.",
+)
 strict = click.option("--strict", is_flag=True, help="Exit with 1 when a check fails.")
 
 

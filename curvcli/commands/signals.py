@@ -20,6 +20,15 @@ _ONE_WISH = 1.0
 _SOON, _PATIENCE = 0.01, 5.0
 
 
+_endings: list[Ending] = []
+
+
+def adopt() -> None:
+    """Listen in a child that was forked to do the work; its parent says what is to be said of a signal."""
+    for ending in _endings:
+        ending.adopted, ending._process = True, os.getpid()
+
+
 class Ending:
     """The wish to end: raised as KeyboardInterrupt wherever the program is, and remembered here.
 
@@ -28,7 +37,9 @@ class Ending:
 
     def __init__(self) -> None:
         self.number: int | None = None
+        self.adopted = False
         self._process, self._at, self._delayed = os.getpid(), 0.0, False
+        _endings.append(self)
 
     @property
     def code(self) -> int:

@@ -29,6 +29,8 @@ ALLOWED = {
     ("curvcli/output/render.py", "ctypes"),
     ("curvcli/batch/processes.py", "subprocess"),
 }
+# A command with a bound on its time or memory goes on in a child of itself, which its parent can end.
+FORKS = {("curvcli/commands/bounds.py", "os.fork")}
 HARMLESS = {("urllib.request", "url2pathname")}  # rewrites a string
 
 
@@ -55,7 +57,9 @@ def test_the_source(path: Path) -> None:
     for function, call in calls(tree):
         given = {word.arg: word.value for word in call.keywords}
         assert function not in ("eval", "exec", "compile", "__import__", "input", "breakpoint"), ast.unparse(call)
-        assert not re.fullmatch(r"os\.(system|popen|exec\w+|spawn\w+|posix_spawn\w*|fork\w*|startfile)", function)
+        assert (name, function) in FORKS or not re.fullmatch(
+            r"os\.(system|popen|exec\w+|spawn\w+|posix_spawn\w*|fork\w*|startfile)", function
+        )
         assert "shell" not in given, ast.unparse(call)
         if function in ("np.load", "numpy.load", "np.savez", "np.save", "np.savez_compressed"):
             allow = given.get("allow_pickle")

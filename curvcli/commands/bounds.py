@@ -1,0 +1,89 @@
+"""Bounds on what a command costs, kept by a parent that waits while its child works."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import signal
+import sys
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, NoReturn
+
+import click
+
+from ..errors import InputError, UsageError
+from ..exits import INTERNAL
+from ..memory import bound
+from ..sinks import wait_for
+from . import options, signals
+from .talk import say
+
+# Seconds in which a child that was told to end can remove what it has not finished.
+_GRACE = 3.0
+
+
+def bounded(command: Callable[..., Any]) -> Callable[..., Any]:
+    """A command with --timeout and --max-memory."""
+
+    @options.timeout
+    @options.max_memory
+    @wraps(command)
+    def run(*arguments: Any, timeout: float | None, max_memory: int | None, **settings: Any) -> Any:
+        if timeout is not None or max_memory is not None:
+            guard(timeout, max_memory)
+        return command(*arguments, **settings)
+
+    return run
+
+
+def guard(timeout: float | None, max_memory: int | None) -> None:
+    """Go on in a child, in at most so many seconds and MB beside what the program itself takes; the parent waits.
+
+    The parent does not return: it ends with the child's exit code. Errors: UsageError where the system cannot keep a
+    bound; in the parent, InputError where the child has met one.
+    """
+    if not hasattr(os, "fork"):
+        raise UsageError("--timeout, --max-memory: only a system that forks keeps bounds")
+    if max_memory is not None and not sys.platform.startswith("linux"):
+        raise UsageError("--max-memory: only Linux bounds the memory of a process")
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    ends, held = os.pipe()  # which the child holds until it ends
+    child = os.fork()
+    if child:
+        os.close(held)
+        _watch(child, ends, timeout, max_memory)
+    os.close(ends)
+    signals.adopt()
+    if max_memory is not None:
+        # Before the bound, which does not count them.
+        for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
+            importlib.import_module(name)
+        bound(max_memory << 20)
+
+
+def _watch(child: int, ends: int, timeout: float | None, max_memory: int | None) -> NoReturn:
+    """Wait for the end of the child, and end as it did."""
+    try:
+        late = not wait_for(ends, "read", timeout)
+    except BaseException:
+        _end(child, ends)
+        raise
+    if late:
+        _end(child, ends)
+        raise InputError(f"takes longer than the {timeout:g} s allowed", hint="--timeout sets the limit")
+    code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    if code >= 0:
+        raise click.exceptions.Exit(code)
+    if max_memory is not None and -code in (signal.SIGKILL, signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS):
+        raise InputError("needs more memory than --max-memory allows", hint="a larger limit takes it")
+    say(f"internal error: the process at work was ended by {signal.Signals(-code).name}")
+    raise click.exceptions.Exit(INTERNAL)
+
+
+def _end(child: int, ends: int) -> None:
+    os.kill(child, signal.SIGTERM)
+    if not wait_for(ends, "read", _GRACE):
+        os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
