@@ -170,10 +170,15 @@ def _columns(chosen: list[str]) -> dict[str, Quantity]:
     return {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
 
 
+def along_edges() -> dict[str, Quantity]:
+    """The numbers of edges, each with its quantity."""
+    return {column: q for q in passes.quantities("edge") for column in q.columns if not q.vector}
+
+
 def _colored_column(name: str, chosen: list[str]) -> Quantity:
     """The quantity whose column colours the mesh, or its edges: these are computed with every table of edges."""
     columns = _columns(chosen)
-    along = {column: q for q in passes.quantities("edge") for column in q.columns if q.stem == column}
+    along = along_edges()
     if name in along and name not in columns:
         return along[name]
     if name not in columns:

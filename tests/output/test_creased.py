@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +14,12 @@ import curvcli
 from curvcli.analysis import Analysis
 from curvcli.errors import UsageError
 from curvcli.output.cells import own_cells
+from curvcli.output.html.page import page as page_bytes
 from curvcli.output.look import Look
 from curvcli.output.write import Appearance, check_appearance, colored
 from tests import meshes
 from tests.cli.program import curvcli as program
+from tests.html.parsed import Page
 from tests.meshes import Mesh
 from tests.output.images import near, opengl
 from tests.output.test_pictures import picture, seen
@@ -109,6 +114,50 @@ def test_cells_tile_the_faces(seed: int) -> None:
     nearest = np.linalg.norm(cells.positions[tinted][:, None] - mesh.points[None], axis=2).argmin(axis=1)
     own = (cells.colors[tinted] == colors[nearest]).all(axis=1)
     assert own.mean() > 0.8  # the tips themselves, and all ends but those that two cells share
+
+
+def test_pages_have_the_edges_and_keep_colours_in_cells() -> None:
+    analysis = analysed(tin())
+    page = Page(page_bytes(analysis, Appearance(color_by=("theta", "h_signed")), ("theta", "h_signed"), None))
+    data = page.json()
+    cells = {column["name"]: column["cells"] for column in data["columns"]}
+    assert cells["h_signed"]
+    assert cells["K_density"]
+    assert not cells["A"]
+    assert not cells["K"]
+    counts = [count for _, count in data["bend"]]
+    theta = analysis.edges["theta"]
+    assert sum(counts) == np.count_nonzero(np.abs(theta) > 0.05)
+    assert data["bend"][-1][1] == np.count_nonzero(theta > 1.5)
+    assert "theta" in page.root.one("figure", id="edge-scale").text
+    smooth = meshes.of_sample("torus", size=300)
+    plain = Page(page_bytes(curvcli.analyze((smooth.points, smooth.faces), "core"), Appearance(), (), None)).json()
+    assert plain["bend"] == []
+    assert not any(column["cells"] for column in plain["columns"])
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_the_cells_of_pages_are_those_of_pictures(tmp_path: Path) -> None:
+    source = (Path(curvcli.__file__).parent / "output/html/templates/scene.js").read_text()
+    function = source[source.index("function ownCells") :]
+    function = function[: function.index("\n}\n") + 3]
+    mesh = meshes.grid(3)
+    script = f"""{function}
+const {{ positions, owner }} = ownCells(
+  new Float32Array({mesh.points.ravel().tolist()}), new Uint32Array({mesh.faces.ravel().tolist()}));
+console.log(JSON.stringify([Array.from(positions), Array.from(owner)]));"""
+    ran = subprocess.run(["node", "-e", script], capture_output=True, text=True, check=True)
+    positions, owner = json.loads(ran.stdout)
+    colors = np.column_stack([np.arange(len(mesh.points))] * 3).astype(np.uint8)
+    wanted = own_cells(mesh.points, mesh.faces, colors, (255, 255, 255))
+    places = np.where(wanted.colors[:, 0] == 255, -1, wanted.colors[:, 0].astype(int)).tolist()
+
+    def triangles(at: np.ndarray, names: list[int]) -> list[object]:
+        rows = np.column_stack([np.round(at, 5), np.asarray(names, float)]) + 0.0
+        return sorted(map(tuple, rows.reshape(-1, 12).tolist()))
+
+    found = triangles(np.reshape(positions, (-1, 3)), owner)
+    np.testing.assert_allclose(found, triangles(wanted.positions, places), atol=3e-5)
 
 
 def test_by_the_command_line(tmp_path: Path) -> None:

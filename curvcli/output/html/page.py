@@ -19,6 +19,7 @@ from ...report.quantities import unmarked
 from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ..camera import frame
 from ..look import VIEWS, Look, parse_view
+from .bend import bend, cell, in_cells
 from .columns import Column, columns, hex_color
 from .display import Display, simplified, whole
 from .engine import engine
@@ -58,6 +59,10 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
     source: Callable[[str], str] = lambda name: templates.loader.get_source(templates, name)[0]  # type: ignore[union-attr]  # noqa: E731
     chosen = columns(analysis, appearance, colored)
     display, blocks = _fitted(analysis, chosen)
+    lines = bend(analysis, appearance, colored, display)
+    shades = [] if lines is None else lines.shades
+    if lines is not None and shades:
+        blocks["bend"] = packed(steps(lines.pairs))
     code = "".join(source(name) for name in ("data.js", "scene.js", "page.js"))
     scripts = [engine(), f'(async () => {{\n"use strict";\n{code}}})();\n']
     style = source("style.css")
@@ -86,8 +91,9 @@ def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], c
         gradients={column.scale.cmap: column.scale.gradient for column in chosen},
         first=_first(chosen, colored),
         display=display,
+        bend=lines,
         surface=analysis.surface,
-        data=_data(analysis, appearance, display, chosen, blocks.pop("meta")),
+        data=_data(analysis, appearance, display, chosen, blocks.pop("meta")) | {"bend": shades},
         blocks={name: Markup(text) for name, text in blocks.items()},
         command=command,
         style=Markup(style),
@@ -223,6 +229,7 @@ def _data(
     """What the page's program has to know."""
     from ...declare import passes
 
+    creased = in_cells(analysis, display)
     described = [
         {
             "name": column.name,
@@ -230,6 +237,7 @@ def _data(
             "low": column.scale.low,
             "high": column.scale.high,
             "rounded": column.scale.rounded is not None,
+            "cells": creased and cell(column.painted),
             "map": column.scale.cmap,
             "undefined": [int(part) for part in column.scale.undefined],
         }

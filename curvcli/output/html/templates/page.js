@@ -48,6 +48,7 @@ const [vertices, positions, status, facesPacked, normals, boundaryPacked, crowde
   numbers("normals", Int8Array), numbers("boundary", Uint32Array), numbers("crowded", Uint32Array),
 ]);
 for (let i = 1; i < vertices.length; i++) vertices[i] += vertices[i - 1];
+const bend = data.bend.length ? rows(await numbers("bend", Uint32Array), 2) : null;
 const menu = $("column"), input = $("vertex"), said = $("picked"), hover = $("hover");
 let scene = null, chosen = null;
 
@@ -115,7 +116,9 @@ async function recolor() {
   $("view").setAttribute("aria-label", `The surface coloured by ${of.name}`);
   if (scene) {
     const { place, known } = spread(stored, of, rounded);
-    scene.setColors(place, known, map, of.undefined);
+    const half = of.high / 2 - of.low / 2;
+    const zero = half > 0 ? Math.min(Math.max(-of.low / 2 / half, 0), 1) : 0.5;
+    scene.setColors(place, known, map, of.undefined, of.cells ? zero : null);
   }
   if (chosen !== null) choose(chosen);
   document.documentElement.dataset.column = of.name;
@@ -196,6 +199,11 @@ function start() {
   scene.setSurface(placed(positions, data.axes), across, rows(facesPacked, 3));
   scene.addLines(rows(boundaryPacked, 2), "--boundary");
   scene.addLines(rows(crowdedPacked, 2), "--crowded");
+  let begin = 0;
+  for (const [shade, count] of data.bend) {
+    scene.addLines(bend.subarray(2 * begin, 2 * (begin + count)), null, shade);
+    begin += count;
+  }
   scene.uniforms.smoothly.value = data.smooth ? 1 : 0;
   scene.resize();
   scene.look(...data.view);

@@ -48,6 +48,36 @@ const VIEWS = {
 };
 const FIELD = 35;
 
+/**
+ * Every corner of a face as far as half the shortest edge at its vertex, and the rest of the face: seven triangles with
+ * corners of their own, and the vertex that colours each, -1 for none.
+ */
+function ownCells(positions, faces) {
+  const at = (vertex) => [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
+  const reach = new Float32Array(positions.length / 3).fill(Infinity);
+  const edges = (f) => [[faces[f], faces[f + 1]], [faces[f + 1], faces[f + 2]], [faces[f + 2], faces[f]]];
+  const length = (a, b) => Math.hypot(...at(a).map((x, k) => at(b)[k] - x));
+  for (let f = 0; f < faces.length; f += 3) {
+    for (const [a, b] of edges(f)) for (const end of [a, b]) reach[end] = Math.min(reach[end], length(a, b));
+  }
+  const found = new Float32Array(21 * faces.length), owner = new Int32Array(7 * faces.length).fill(-1);
+  for (let f = 0; f < faces.length; f += 3) {
+    // Of each edge the points where the cell of its tail ends and that of its head begins.
+    const rim = edges(f).flatMap(([a, b]) => {
+      const full = length(a, b);
+      return [[a, b], [b, a]].map(([from, towards]) => {
+        const share = full > 0 ? Math.min(reach[from] / 2 / full, 0.5) : 0;
+        return at(from).map((x, k) => x + share * (at(towards)[k] - x));
+      });
+    });
+    const corners = [0, 1, 2].flatMap((k) => [at(faces[f + k]), rim[2 * k], rim[(2 * k + 5) % 6]]);
+    for (let k = 0; k < 9; k++) owner[7 * f + k] = faces[f + Math.floor(k / 3)];
+    const inner = [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5].map((k) => rim[k]);
+    [...corners, ...inner].forEach((point, k) => found.set(point, 3 * (7 * f + k)));
+  }
+  return { positions: found, owner };
+}
+
 /** The surface on a canvas: turned by the trackball, drawn only when something changes. */
 class Scene {
   constructor(canvas) {
@@ -85,8 +115,43 @@ class Scene {
     this.geometry = geometry;
   }
 
-  /** place: (n,) where between the ends of the map; known: (n,) 1 or 0; map: (k, 3) bytes; grey: 3 bytes. */
-  setColors(place, known, map, grey) {
+  /** The faces cut into cells, drawn instead of them where the colour of a vertex is to stay in its surroundings. */
+  cutCells() {
+    const across = this.geometry.getAttribute("across").array;
+    const { positions, owner } = ownCells(this.geometry.getAttribute("position").array, this.geometry.index.array);
+    const geometry = new THREE.BufferGeometry(), n = owner.length, turned = new Int8Array(3 * n);
+    for (let i = 0; i < n; i++) if (owner[i] >= 0) turned.set(across.subarray(3 * owner[i], 3 * owner[i] + 3), 3 * i);
+    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    geometry.setAttribute("across", new THREE.BufferAttribute(turned, 3, true));
+    for (const name of ["place", "known"]) {
+      geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(n), 1));
+    }
+    this.owner = owner;
+    this.cells = new THREE.Mesh(geometry, this.mesh.material);
+    this.cells.visible = false;
+    this.scene.add(this.cells);
+  }
+
+  /** Give the cells the colours of their vertices, and what lies between them that of 0; zero: null to blend. */
+  colorCells(place, known, zero) {
+    if (zero !== null && !this.cells) this.cutCells();
+    this.mesh.visible = zero === null;
+    if (!this.cells) return;
+    this.cells.visible = zero !== null;
+    if (zero === null) return;
+    const { array: places } = this.cells.geometry.getAttribute("place");
+    const { array: knowns } = this.cells.geometry.getAttribute("known");
+    this.owner.forEach((vertex, i) => {
+      places[i] = vertex < 0 ? zero : place[vertex];
+      knowns[i] = vertex < 0 ? 1 : known[vertex];
+    });
+    for (const name of ["place", "known"]) this.cells.geometry.getAttribute(name).needsUpdate = true;
+  }
+
+  /** place: (n,) where between the ends of the map; known: (n,) 1 or 0; map: (k, 3) bytes; grey: 3 bytes; zero: the
+   * place of 0 where each vertex colours its own cell, null where colours are blended. */
+  setColors(place, known, map, grey, zero = null) {
+    this.colorCells(place, known, zero);
     for (const [name, array] of [["place", place], ["known", known]]) {
       const attribute = this.geometry.getAttribute(name);
       attribute.array.set(array);
@@ -104,8 +169,8 @@ class Scene {
     this.draw();
   }
 
-  /** Mark edges, given as pairs of vertices, by lines in a colour of the style sheet. */
-  addLines(pairs, variable) {
+  /** Mark edges, given as pairs of vertices, by lines in a colour of the style sheet, or in one of 3 bytes. */
+  addLines(pairs, variable, bytes = null) {
     if (!pairs.length) return;
     const position = this.geometry.getAttribute("position").array;
     const ends = [0, 1].map((end) => {
@@ -122,6 +187,7 @@ class Scene {
     geometry.setAttribute("from", ends[0]);
     geometry.setAttribute("to", ends[1]);
     const uniforms = { pixels: { value: new THREE.Vector2(1, 1) }, width: { value: 3 }, color: { value: new THREE.Color() } };
+    if (bytes) uniforms.color.value.setRGB(...bytes.map((part) => part / 255));
     const material = new THREE.ShaderMaterial({
       uniforms, vertexShader: RIBBON, fragmentShader: PLAIN, side: THREE.DoubleSide,
     });
@@ -228,7 +294,7 @@ void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 
   paint() {
     const style = getComputedStyle(document.documentElement);
     const color = (variable) => new THREE.Color(style.getPropertyValue(variable).trim().slice(0, 7));
-    for (const { uniforms, variable } of this.ribbons) uniforms.color.value = color(variable);
+    for (const { uniforms, variable } of this.ribbons) if (variable) uniforms.color.value = color(variable);
     if (this.wire) this.wire.material.color = color("--ink");
     this.draw();
   }

@@ -1,0 +1,76 @@
+"""Edges of a page in the colours of one of their columns, and the columns of vertices that stay in their cells."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...resolution import STARS
+from ..legend import Colored
+from ..write import along_edges, colored
+from .display import Display
+
+if TYPE_CHECKING:
+    from ...analysis import Analysis
+    from ..write import Appearance
+
+# Colours that lines have; and more faces than these are blended, since a browser holds seven triangles of each.
+_SHADES, _MOST_FACES = 31, 100_000
+
+
+@dataclass(frozen=True)
+class Bend:
+    """Edges with their colours: pairs (k, 2) of shown vertices, shade by shade; of each shade its bytes and a count."""
+
+    painted: Colored
+    unit: str
+    pairs: NDArray[np.int32]
+    shades: list[tuple[tuple[int, int, int], int]]
+
+
+def bend(analysis: Analysis, appearance: Appearance, asked: tuple[str, ...], display: Display) -> Bend | None:
+    """The first column of edges that is asked for, on the edges whose two ends are shown; None without one.
+
+    Undefined edges and those with the colour of 0 are left out.
+    """
+    names = along_edges()
+    name = next((name for name in asked if name in names), None)
+    if name is None:
+        return None
+    one = colored(analysis, name, appearance)
+    low, high = one.scale.low, one.scale.high
+    edges, place = analysis.surface.edges, np.full(analysis.surface.n_vertices, -1, np.int32)
+    place[display.vertices] = np.arange(len(display.vertices), dtype=np.int32)
+    ends = np.stack([place[edges.a], place[edges.b]], axis=1)
+    values = one.scale.settled(analysis.edges[name].astype(np.float64))
+    shown = (ends >= 0).all(axis=1) & np.isfinite(values) & (values != 0)
+    shades: list[tuple[tuple[int, int, int], int]] = []
+    order = np.empty(0, np.intp)
+    if low is not None and high is not None and high > low:
+        share = np.clip((values / 2 - low / 2) / (high / 2 - low / 2), 0, 1)
+        shade = np.rint(np.nan_to_num(share) * (_SHADES - 1)).astype(np.intp)
+        if one.scale.signed:
+            shown &= shade != _SHADES // 2
+        chosen = np.flatnonzero(shown)
+        order = chosen[np.argsort(shade[chosen], kind="stable")]
+        for number, count in enumerate(np.bincount(shade[chosen], minlength=_SHADES).tolist()):
+            red, green, blue = one.scale.gradient[
+                round(number / (_SHADES - 1) * (len(one.scale.gradient) - 1))
+            ].tolist()
+            if count:
+                shades.append(((red, green, blue), count))
+    return Bend(one, one.unit(analysis.conventions.unit), ends[order].astype(np.int32), shades)
+
+
+def in_cells(analysis: Analysis, display: Display) -> bool:
+    """Whether densities of stars are painted in the cells of their vertices: on creased meshes that are shown whole."""
+    few = display.whole and len(display.faces) <= _MOST_FACES
+    return few and any(notice.code == "creased" for notice in analysis.notices)
+
+
+def cell(one: Colored) -> bool:
+    """Whether a column is a density of stars that has colours."""
+    return one.quantity.name in STARS and one.scale.low is not None
