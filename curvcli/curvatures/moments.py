@@ -78,24 +78,27 @@ def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> 
     usable = surface.referenced & ~surface.nonmanifold & (length > 0)
     normal = np.divide(normal, length, where=usable, out=np.full_like(normal, np.nan))
     frames = np.array([*frame(normal), normal])
-    stars = np.array([*star_vector, np.sqrt(dot(star_vector, star_vector))])
+    stars = np.array([*star_vector, np.sqrt(dot(star_vector, star_vector))]).T
     for block, rows in neighbourhoods(surface, scale):
         size = np.diff(rows.indptr)
+        total = (as_weights(rows) @ stars).T
+        shadow = np.ones(len(size))
+        np.divide(dot(total[:3], normal[:, block]), total[3], out=shadow, where=total[3] > 0)
+        shadow[surface.without_orientation[block]] = 1.0
         chosen = np.flatnonzero(usable[block] & (size >= least))
         chosen = chosen[np.argsort(size[chosen], kind="stable")]
         for start in range(0, len(chosen), _ROWS):
-            yield partial(_of_rows, surface, frames, stars, rows, block.start, chosen[start : start + _ROWS])
+            yield partial(_of_rows, surface, frames, shadow, rows, block.start, chosen[start : start + _ROWS])
 
 
 def _of_rows(
-    surface: Surface, frames: Floats, stars: Floats, rows: Pattern, first: int, chosen: NDArray[np.intp]
+    surface: Surface, frames: Floats, shadow: Floats, rows: Pattern, first: int, chosen: NDArray[np.intp]
 ) -> Moments:
     """The moments of the chosen rows of a block, which are in the order of their sizes."""
     vertex, size = chosen + first, np.diff(rows.indptr)[chosen]
     width = -(-size // _STEP) * _STEP
     axes = frames[:, :, vertex]
     sums = np.empty((_PRODUCT + 2, _PRODUCT + 2 + _BESIDE, len(chosen)))
-    shadow = np.ones(len(chosen))
     room = np.empty(_POWERS * max(_ENTRIES, int(width[-1])))
     start = 0
     while start < len(chosen):
@@ -103,21 +106,9 @@ def _of_rows(
         part = slice(start, stop)
         table = _table(rows, chosen[part], vertex[part], int(width[start]))
         powers = room[: _POWERS * table.size].reshape(_POWERS, *table.shape)
-        shadow[part] = _shadow(stars, axes[2, :, part], table, size[part])
         _fill(surface, axes[:, :, part], vertex[part], table, powers, sums[:, :, part])
         start = stop
-    shadow[surface.without_orientation[vertex]] = 1.0
-    return Moments(vertex, size.astype(np.float64), axes, sums, shadow)
-
-
-def _shadow(stars: Floats, normal: Floats, table: NDArray[np.intp], size: Floats) -> Floats:
-    """(m,) Σ**A**·n/Σ|**A**| over the points of a table; stars: (4, V) vector areas and their lengths."""
-    along = dot([x.take(table) for x in stars[:3]], normal[:, :, None])
-    length = stars[3].take(table)
-    # What fills a row up counts once: it is the vertex itself, in the last column where there is any.
-    spare = table.shape[1] - size
-    upright: Floats = (along.sum(axis=1) - spare * along[:, -1]) / (length.sum(axis=1) - spare * length[:, -1])
-    return upright
+    return Moments(vertex, size.astype(np.float64), axes, sums, shadow[chosen])
 
 
 def _table(rows: Pattern, chosen: NDArray[np.intp], vertex: NDArray[np.intp], width: int) -> NDArray[np.intp]:
