@@ -15,14 +15,15 @@ def shown(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
+_ASCII = bytes(range(128))
+
+
 def in_json(data: bytes) -> bytes:
     r"""JSON that a terminal can show: the same values, with what cannot be printed in them as `\u`."""
-    if data.isascii() and b"\x7f" not in data:
-        return data
-    text = data.decode("utf-8")
-    # What stands outside of strings is printable, but for the ends of lines.
-    odd = {c for c in set(text) if c != "\n" and not c.isprintable()}
-    return text.translate({ord(c): _of_json(c) for c in odd}).encode("utf-8") if odd else data
+    # Outside of strings all is printable but the ends of lines. ASCII goes first: most of a report is that.
+    beyond = set(data.translate(None, _ASCII).decode("utf-8"))
+    odd = {c for c in beyond if not c.isprintable()} | ({"\x7f"} if b"\x7f" in data else set())
+    return data.decode("utf-8").translate({ord(c): _of_json(c) for c in odd}).encode("utf-8") if odd else data
 
 
 def _of_json(character: str) -> str:

@@ -7,12 +7,18 @@ import os
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+import click
 import pytest
 
 from curvcli.commands.config import configure, nearest
-from curvcli.commands.main import cli
+from curvcli.commands.main import COMMANDS, cli
 from curvcli.errors import UsageError
 from tests.cli.program import CUBE, MOBIUS, curvcli
+
+
+def find(name: str) -> click.Command | None:
+    return cli.get_command(click.Context(cli), name)
+
 
 OUTPUTS = [
     ("analyze", "output = '{there}'"),
@@ -48,10 +54,8 @@ def test_a_configuration_names_no_outputs_and_no_inputs(tmp_path: Path, command:
     there = tmp_path / "there.csv"
     head = f"[{command}]" if name == "curvcli.toml" else f"[tool.curvcli.{command}]"
     (tmp_path / name).write_text(f"{head}\n{line.format(there=there)}\n")
-    import click
-
     with pytest.raises(UsageError, match=r"a configuration names no .*give it on the command line"):
-        configure(click.Context(cli), str(tmp_path / name), lambda name: cli.get_command(click.Context(cli), name))
+        configure(click.Context(cli), str(tmp_path / name), find)
 
 
 def test_no_file_is_overwritten_from_above(tmp_path: Path) -> None:
@@ -192,3 +196,20 @@ def test_a_hostile_name_of_the_file_is_text(tmp_path: Path) -> None:
     for form in ("text", "github", "junit", "sarif", "json"):
         ended = curvcli("check", CUBE, "--format", form, folder=folder)
         assert not {"\x1b", "\u202e"} & set(ended.out + ended.err), form
+
+
+def test_no_option_that_names_files_is_forgotten(tmp_path: Path) -> None:
+    """Whoever adds one decides: refused, or named in the verdict as a baseline is."""
+    for name in COMMANDS:
+        command = cli.get_command(click.Context(cli), name)
+        assert command is not None
+        for option in command.params:
+            words = (option.metavar or "").upper() if isinstance(option, click.Option) else ""
+            if not any(word in words for word in ("FILE", "PATH", "DIR", "LIST|", "ADDRESS", "URL")):
+                continue
+            if option.name in ("regions", "baseline"):
+                continue
+            key = option.opts[-1].removeprefix("--")
+            (tmp_path / "curvcli.toml").write_text(f"[{name}]\n{key} = 'x.csv'\n")
+            with pytest.raises(UsageError, match="a configuration names no"):
+                configure(click.Context(cli), str(tmp_path / "curvcli.toml"), find)
