@@ -99,13 +99,12 @@ def test_every_option_of_check_has_an_input(action: dict[str, Any], check: Any, 
     # And each reaches the program as its own argument.
     (tmp_path / "curvcli").write_text('#!/bin/sh\n[ "$1" = check ] && printf "%s\\n" "$@" > told\nexit 0\n')
     values = {name: f"a b {name}" for name in options - {"force", "quiet", "verbose", "output"}}
-    done = check(
-        meshes="a b/parts/cube.obj", quiet="true", verbose="2", output="o p", arguments="--x=y z\n-q", **values
-    )
+    flags = {"quiet": "true", "verbose": "2", "output": "o p", "arguments": "--x='y z' $(id)\n-q"}
+    done = check(meshes="a b/parts/cube.obj", **values, **flags)
     assert done.returncode == 0, done.stderr
     told = (tmp_path / "told").read_text().splitlines()
     assert {f"--{name}={value}" for name, value in values.items() if value.startswith("a b")} <= set(told)
-    assert {"--force", "--quiet", "--verbose", "--output=o p", "--x=y z", "-q"} <= set(told)
+    assert {"--force", "--quiet", "--verbose", "--output=o p", "--x=y z", "$(id)", "-q"} <= set(told)
     assert told.count("--verbose") == 2
     assert told[-2:] == ["--", "a b/parts/cube.obj"]
 
@@ -121,6 +120,9 @@ def test_every_option_of_check_has_an_input(action: dict[str, Any], check: Any, 
         ({"meshes": "a b/parts/*.off"}, 5),
         ({"meshes": "a b/parts/cube.obj", "max-faces": "3"}, 3),
         ({"meshes": "a b/parts/cube.obj", "arguments": "--require=genus=1\n--allow=manifold"}, 1),
+        ({"meshes": "a b/parts/cube.obj", "arguments": "--require closed,genus=0 --allow 'manifold'"}, 0),
+        ({"meshes": "a b/parts/cube.obj", "arguments": "--require 'closed"}, 2),
+        ({"meshes": "a b/parts/cube.obj", "arguments": "--require $(touch${IFS}gone) `touch gone`"}, 2),
         ({"meshes": "a b/parts/cube.obj", "verbose": "a[$(touch gone)]"}, 2),
         ({"meshes": "a b/parts/cube.obj", "summary": "x[$(touch gone)0]"}, 2),
     ],
