@@ -45,6 +45,8 @@ def _instead(given: Any, passing: str) -> str:
         (("points", "cells_dict"), "(mesh.points, mesh.cells_dict['triangle'])"),
         (("combine", "keys"), "(mesh.points, mesh.regular_faces) of blocks.combine().extract_surface().triangulate()"),
         (("vertices", "triangles"), "(numpy.asarray(mesh.vertices), numpy.asarray(mesh.triangles))"),
+        (("vertices", "cells"), "(mesh.vertices, mesh.cells)"),
+        (("vertex_matrix", "face_matrix"), "(mesh.vertex_matrix(), mesh.face_matrix())"),
         (("geometry", "to_mesh"), "scene.to_mesh()"),
         (("agg_data", "darrays"), "image.agg_data()"),
     )

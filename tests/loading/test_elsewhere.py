@@ -151,6 +151,13 @@ def given() -> dict[str, Any]:
     class Cloud:  # as open3d has them
         vertices, triangles = POINTS, FACES
 
+    class Matrices:  # as pymeshlab has them
+        def vertex_matrix(self) -> Any:
+            return POINTS
+
+        def face_matrix(self) -> Any:
+            return FACES
+
     class Image:  # as nibabel has them
         darrays = ()
 
@@ -164,6 +171,7 @@ def given() -> dict[str, Any]:
         "trimesh.Scene": (trimesh.Scene(mesh), "scene.to_mesh()"),
         "trimesh.PointCloud": (trimesh.PointCloud(POINTS), ""),
         "Cloud": (Cloud(), "numpy.asarray(mesh.triangles)"),
+        "Matrices": (Matrices(), "mesh.face_matrix()"),
         "Image": (Image(), "image.agg_data()"),
         "the class Mesh": (meshio.Mesh, "pass an object of it"),
         "the class Trimesh": (trimesh.Trimesh, "pass an object of it"),
