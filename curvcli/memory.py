@@ -8,6 +8,7 @@ import os
 import sys
 import traceback
 from collections.abc import Iterator
+from contextlib import suppress
 
 # Address space that polars' threads and its allocator reserve before they hold a byte of data: at first, and later.
 _FIRST_USE, _LATER_USE, _STACK = 5 << 27, 3 << 26, 1 << 23
@@ -103,6 +104,18 @@ def limited() -> bool:
     except ImportError:
         return False
     return resource.getrlimit(resource.RLIMIT_AS)[0] != resource.RLIM_INFINITY
+
+
+def give_back() -> None:
+    """Return freed memory to the system where the address space is limited, so that other allocators can have it.
+
+    The command keeps freed memory in its heap, where numpy finds it again but polars and the imports do not.
+    """
+    if limited() and sys.platform.startswith("linux"):
+        import ctypes
+
+        with suppress(AttributeError, OSError):  # a C library of another kind
+            ctypes.CDLL(None).malloc_trim(0)
 
 
 def address_space() -> int:

@@ -18,7 +18,7 @@ from ..errors import InputError, OutputError
 from ..loading.read import read_mesh_file
 from ..loading.recognise import format_of_name
 from ..loading.surfaces import from_file
-from ..memory import ran_out
+from ..memory import give_back, ran_out
 from ..output.atomic import Outputs
 from ..output.write import write_into
 from ..printable import shown
@@ -36,6 +36,7 @@ _WORST = ("fail", "pass", "not_applicable")
 def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
     """Analyse one mesh and write its outputs whole or not at all: its row, and whether memory ran out."""
     start = time.perf_counter()
+    give_back()  # of the mesh before
     _forget_peak()
     spent = False
     try:

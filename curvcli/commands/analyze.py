@@ -12,7 +12,7 @@ import click
 from ..errors import CurvcliError, LackingError, OutputError, UsageError
 from ..exits import FAILED_CHECK, OK, exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
-from ..memory import ran_out
+from ..memory import give_back, ran_out
 from . import options
 from .bounds import bounded
 from .configured import configuration
@@ -163,6 +163,7 @@ class Run:
 
     def done(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> tuple[Any, int]:
         """The report of one mesh, if it is wanted later, and the exit code; nothing keeps the analysis."""
+        give_back()  # of the mesh before
         analysis = self.one(mesh, paths, tables, outputs)
         return self.tell(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
 

@@ -12,7 +12,7 @@ import click
 from ..errors import CurvcliError, LackingError
 from ..exits import exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
-from ..memory import ran_out
+from ..memory import give_back, ran_out
 from . import options
 from .bounds import bounded
 from .configured import configuration
@@ -137,6 +137,7 @@ class Run:
         """What came of one mesh; one that cannot be checked is told on stderr at once."""
         from ..report.check import failed_input
 
+        give_back()  # of the mesh before
         try:
             return self.judged(mesh)
         except CurvcliError as error:

@@ -79,8 +79,10 @@ def write_into(
     tables are written: polars formats them outside the interpreter.
     """
     notices: list[Notice] = []
-    require_polars(64 * min(analysis.surface.n_vertices, ROWS_IN_A_FRAME))
     formats = {path: format_of(path, name=stream_format if path == "-" else None) for path in paths}
+    tables = list(tables)
+    if tables or any(found.kind == "table" for found in formats.values()):
+        require_polars(64 * min(analysis.surface.n_vertices, ROWS_IN_A_FRAME))
     stop = Event()
     with ThreadPoolExecutor(1) as other:
         try:

@@ -14,7 +14,9 @@ from pathlib import Path
 import polars as pl
 import pytest
 
+import curvcli
 from tests.batch.conftest import polygon
+from tests.cli.program import environment
 from tests.exact_values import MESHES
 from tests.test_plugin import install
 
@@ -185,3 +187,35 @@ def test_a_worker_does_not_outlive_its_parent(tmp_path: Path, trapped: dict[str,
     process.wait()
     with open(reader, "rb") as pipe:
         assert pipe.read() == b""
+
+
+ONE_AFTER_THE_OTHER = """
+import importlib, os, sys
+from curvcli.commands.allocation import keep_memory
+keep_memory()
+from curvcli.batch.model import Item, Limits, Settings
+from curvcli.batch.run import run
+from curvcli.batch.worker import _limit
+from curvcli.pipeline import load_passes
+load_passes()
+for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
+    importlib.import_module(name)
+LIMIT = int(sys.argv[2]) << 20
+_limit(LIMIT)
+for number in range(3):
+    outputs = (("", os.path.abspath(f"{number}.ply")),)
+    item = Item(path="m", place=sys.argv[1], outputs=outputs)
+    print(run(item, Settings(passes=("core",)), Limits(None, LIMIT))[0].status)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no limit of the address space")
+def test_a_worker_has_the_memory_of_each_mesh_for_the_next(tmp_path: Path) -> None:
+    """What one mesh takes below the limit, the same mesh takes again and again."""
+    from curvcli.samples import get
+
+    made = get("torus")(size=300_000)
+    curvcli.analyze((made.points, made.faces), "topology").write(tmp_path / "m.ply")
+    command = [sys.executable, "-c", ONE_AFTER_THE_OTHER, "m.ply", "330"]
+    ended = subprocess.run(command, cwd=tmp_path, env=environment(), capture_output=True, text=True, check=False)
+    assert ended.stdout.split() == ["ok"] * 3, ended.stderr
