@@ -237,7 +237,7 @@ class Surface(Incidence):
         closed[self._file_orientation.patch[self.boundary_half_edges // 3]] = False
         return closed
 
-    @cached_property
+    @property
     def solids(self) -> Solids:
         """The closed orientable patches as the file winds them: how they nest, and which are inside out."""
         return Solids(self, self._file_orientation)

@@ -2,20 +2,34 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import frozen
 from ..blocks import volume_errors
+from ..cache import cached
 from ..topology import Mask
 
 if TYPE_CHECKING:
     from ..orientation import Orientation
     from ..surface import Surface
     from .nesting import Nesting
+
+
+_Found = TypeVar("_Found")
+
+
+class _Kept(Generic[_Found]):
+    """A property of the solids of a surface, kept with the surface, which they refer to and it must not refer to."""
+
+    def __init__(self, find: Callable[[Solids], _Found]) -> None:
+        self._of = cached(lambda surface: find(surface.solids))
+
+    def __get__(self, solids: Solids, _: type[Solids]) -> _Found:
+        return self._of(solids.surface)
 
 
 class Solids:
@@ -25,16 +39,16 @@ class Solids:
     """
 
     def __init__(self, surface: Surface, orientation: Orientation) -> None:
-        self._surface, self._orientation = surface, orientation
+        self.surface, self._orientation = surface, orientation
         self.mask: Mask = surface.closed_patches & orientation.orientable
         self.mask.setflags(write=False)
 
-    @cached_property
+    @_Kept
     def count(self) -> int:
         """Number of solid patches."""
         return int(np.count_nonzero(self.mask))
 
-    @cached_property
+    @_Kept
     @frozen
     def depth(self) -> NDArray[np.int64]:
         """(patches,) the number of other solid patches around each; 0 for those that cross another: they have none."""
@@ -43,7 +57,7 @@ class Solids:
             depth[self.mask] = self._nesting.depth
         return depth
 
-    @cached_property
+    @_Kept
     @frozen
     def crossing(self) -> NDArray[np.int64]:
         """(m, 2) pairs of solid patches that cross or coincide."""
@@ -51,15 +65,15 @@ class Solids:
             return np.zeros((0, 2), np.int64)
         return np.flatnonzero(self.mask)[self._nesting.crossing]
 
-    @cached_property
+    @_Kept
     def _nesting(self) -> Nesting:
         from .nesting import nest  # of a single patch nobody asks
 
         number = np.where(self.mask, np.cumsum(self.mask) - 1, -1)[self._orientation.patch]
         sign = np.sign(self._volumes[self.mask]).astype(np.int64)
-        return nest(self._surface.xyz, self._surface.faces, number, sign)
+        return nest(self.surface.xyz, self.surface.faces, number, sign)
 
-    @cached_property
+    @_Kept
     @frozen
     def inside_out(self) -> Mask:
         """(patches,) those whose volume has the wrong sign, beyond rounding.
@@ -74,24 +88,24 @@ class Solids:
         wrong &= volume < 0
         if wrong.any():
             chosen = np.flatnonzero(wrong[self._orientation.patch])
-            errors = volume_errors(self._surface, self._surface.components.face, chosen)
+            errors = volume_errors(self.surface, self.surface.components.face, chosen)
             wrong &= volume + self._sum(errors, chosen) < 0
         return wrong
 
-    @cached_property
+    @_Kept
     def _volumes(self) -> NDArray[np.float64]:
         """(patches,) volumes as the patches are oriented."""
         if not self.count:
             return np.zeros(len(self.mask))
         sign = self._orientation.face_sign
-        products = self._surface.triple_products
+        products = self.surface.triple_products
         return self._sum(products if sign is None else products * sign) / 6
 
     def _sum(self, values: NDArray[np.float64], faces: NDArray[np.integer[Any]] | None = None) -> NDArray[np.float64]:
         patch = self._orientation.patch if faces is None else self._orientation.patch[faces]
         return np.asarray(np.bincount(patch, values, minlength=len(self.mask)), np.float64)
 
-    @cached_property
+    @_Kept
     @frozen
     def first_face(self) -> NDArray[np.int64]:
         """(patches,) the lowest face of each patch of the surface."""
