@@ -19,7 +19,7 @@ Places = NDArray[np.intp]
 _NORMAL, _VERTEX = 4, 4
 _FACETS = re.compile(rb"(?i)(?<=[ \n])facet (?:normal|outer) [^\n]*")
 _COMMENT = re.compile(rb" #[^\n]*")
-_PART = re.compile(rb"(?i)(?<![^ ])(?:outer loop|vertex|endloop|endfacet)(?![^ ])")
+_PART = re.compile(rb"(?:normal|outer|loop|vertex|endloop|endfacet)(?= |$)|.*? (outer) loop(?= |$)")
 _NAMES = (b"solid", b"endsolid")
 
 
@@ -48,7 +48,7 @@ def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.fl
     whole = first_wrong == len(expected)
     begin, end = facets[whole], loops[whole] + 4 + _VERTEX * 3
     wrong = np.flatnonzero(~whole)
-    wrong = wrong[~tokens.in_name(facets[wrong], end)]
+    wrong = wrong[(first_wrong[wrong] > 0) | ~tokens.in_name(facets[wrong], end)]
     if len(wrong):
         places, word = expected[first_wrong[wrong[0]]]
         raise tokens.unexpected(int(places[wrong[0]]), word.decode())
@@ -135,17 +135,17 @@ def _between(tokens: _Tokens, begin: Places, end: Places) -> list[Notice]:
     for gap in np.flatnonzero(left < right).tolist():
         offset = int(bounds[left[gap]])
         last = text[offset : bounds[right[gap]]].lower()
-        named = False
-        for line in last.splitlines(keepends=True):
-            words = line.split(None, 1)
-            is_name = bool(words) and words[0] in _NAMES
-            found = None if is_name and b" outer loop " not in line else _PART.search(line.replace(b"\n", b" "))
-            if found:
-                part = found[0].split()[0].decode()
-                raise InputError(f"`{part}` outside a facet found", place=tokens.line(offset + found.start()))
-            named |= is_name
-            unknown += bool(words) and not is_name
-            offset += len(line)
+        named = naming = False
+        for line in last.split(b"\n"):
+            if found := _PART.match(line):
+                part = (found[1] or found[0]).decode()
+                raise InputError(f"`{part}` outside a facet found", place=tokens.line(offset))
+            if (words := line.split(b" ", 1))[0] in _NAMES:
+                # Without a name on its line, the next lines have it.
+                named, naming = True, len(words) == 1
+            else:
+                unknown += bool(line) and not naming
+            offset += len(line) + 1
         solids += named and gap < len(begin)
     notices = []
     if solids > 1:

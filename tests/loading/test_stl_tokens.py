@@ -93,6 +93,26 @@ def test_statements_of_others_are_counted_as_before() -> None:
     assert codes(b"solid\n" + b"\n".join(facet.encode() for facet in FACETS)) == {"missing_endsolid": 1}
 
 
+@pytest.mark.parametrize("comment", ["// vertex 1 2 3", "; the first vertex", "! facet 1", "comment: a vertex list"])
+def test_comments_of_other_languages_are_counted(comment: str) -> None:
+    assert corners("\n".join(["solid a", FACETS[0], comment, *FACETS[1:], "endsolid a", ""]).encode()) == CORNERS
+
+
+@pytest.mark.parametrize(
+    "part", ["vertex 0 0 0", "outer loop", "endloop", "endfacet", "a outer loop b", "normal 0 0 1"]
+)
+def test_parts_of_a_facet_outside_are_refused(part: str) -> None:
+    with pytest.raises(InputError, match="line 3: "):
+        parsed("stl", "\n".join(["solid a", FACETS[0], part, *FACETS[1:], "endsolid a", ""]).encode())
+
+
+def test_a_token_on_each_line() -> None:
+    for end in ("\n", "\r\n", "\r"):
+        data = end.join(" ".join(["solid", "a", "vertical", *FACETS, "endsolid", "a"]).split()).encode()
+        assert corners(data) == CORNERS
+        assert codes(data) == {}
+
+
 def test_facets_without_a_normal() -> None:
     data = "solid a " + " ".join(facet.replace("normal 0 0 1 ", "") for facet in FACETS) + " endsolid a"
     assert corners(data.encode()) == CORNERS
