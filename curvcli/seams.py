@@ -123,14 +123,12 @@ def near_seam(surface: Surface) -> Seam | None:
     if not tolerances:
         return None
     before = exact_effect(surface).closed
-    best = None
-    for tolerance in tolerances:
+    best, most = tolerances[0], before
+    for tolerance in tolerances if len(tolerances) > 1 else ():
         found = _tried(surface, tolerance, surface.boundary)
-        if found is not None and found.effect.closed > (before if best is None else best.effect.closed):
-            best = found
-    if best is None:
-        return None
-    whole = _tried(surface, best.tolerance, None)
+        if found is not None and found.effect.closed > most:
+            best, most = tolerance, found.effect.closed
+    whole = _tried(surface, best, None)
     return whole if whole is not None and whole.effect.closed > before else None
 
 
