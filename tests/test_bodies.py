@@ -10,6 +10,7 @@ from tests import meshes
 from tests.check.gates import judged, outcome
 from tests.meshes import Mesh
 from tests.nests import box, prism, together, volume
+from tests.test_solids import TOUCHING
 
 UNIT = box([0, 0, 0], [1, 1, 1])
 OTHER_DIAGONAL = box([2, 0, 0], [1, 1, 1])
@@ -97,3 +98,14 @@ def test_nothing_to_take_apart() -> None:
     assert taken_apart(surface) is surface
     book = meshes.book(3).surface()
     assert taken_apart(book).nonmanifold_edges.sum() == 1
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_welded_bodies_and_cavities_that_touch(name: str) -> None:
+    """With the right winding they pass, with the other one they fail, in any order."""
+    body, other, depth = TOUCHING[name]
+    for wrong in (False, True):
+        second = meshes.reversed_faces(other) if (depth[1] == 1) != wrong else other
+        for parts in ((body, second), (second, body)):
+            made, _ = welded(*parts)
+            assert outcome(judged(made, "outward"), "outward").status == ("fail" if wrong else "pass")
