@@ -12,6 +12,7 @@ import curvcli
 from curvcli.cell_differences import compare_cells
 from curvcli.declare import Pass, Quantity, Registry, passes
 from curvcli.differences import Tolerance, compare_reports, leaves, selector
+from curvcli.pipeline import load_passes
 from curvcli.samples import get
 
 
@@ -214,6 +215,7 @@ def test_directions_are_lines_but_vectors_are_not() -> None:
     assert [found.name for found in compare_cells(one, other)[0]] == ["H_vec_x", "H_vec_y", "H_vec_z"]
 
 
+load_passes()
 LINES = [quantity for quantity in passes.quantities("vertex") if quantity.kind == "direction"]
 
 
