@@ -207,11 +207,12 @@ class Registry(Mapping[str, Pass]):
     def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
         """Quantities in the order of the tables, vertices first; what has no place there follows as it was declared."""
         elements = get_args(Element) if on is None else (on,)
+        placed = ordered(self._declared(), lambda quantity: quantity.name)
         return [
             quantity
             for element in elements
-            for quantity in ordered(self._declared(), lambda quantity: quantity.name)
-            if (quantity.public or not public) and quantity.on == element
+            for quantity in placed
+            if quantity.on == element and (quantity.public or not public)
         ]
 
     def totals(self) -> list[Quantity]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache
 from typing import TypeVar
 
 _Item = TypeVar("_Item")
@@ -32,5 +33,10 @@ TOTALS = (
 
 def ordered(items: Iterable[_Item], name: Callable[[_Item], str], order: tuple[str, ...] = COLUMNS) -> list[_Item]:
     """The items by the place of their names in an order; those without a place follow as they come."""
-    place = {listed: number for number, listed in enumerate(order)}
+    place = _places(order)
     return sorted(items, key=lambda item: place.get(name(item), len(place)))
+
+
+@cache
+def _places(order: tuple[str, ...]) -> dict[str, int]:
+    return {listed: number for number, listed in enumerate(order)}
