@@ -60,7 +60,7 @@ def parts_of(place: str) -> tuple[str, ...]:
     if is_url(place):
         url = urlsplit(place)
         parts = (url.scheme, url.netloc, *unquote(url.path).split("/"))
-        return tuple(part for part in parts if part not in ("", ".", ".."))
+        return tuple(shown(part).replace(os.sep, "_") for part in parts if part not in ("", ".", ".."))
     drive, rest = os.path.splitdrive(absolute(place))
     return (drive.strip(":\\/").replace("\\", "_"), *(part for part in rest.split(os.sep) if part))
 

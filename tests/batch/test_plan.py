@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from curvcli.batch.places import parts_of
 from curvcli.batch.plan import plan, saves
 from curvcli.errors import InputError, MissingExtraError, NoMatchError, UsageError
 from tests.batch.conftest import ALL
@@ -123,3 +124,8 @@ def test_what_to_save() -> None:
     for wrong in ("cvs", "edges", "edge.csv", "faces.ply", "vertices.csv", ""):
         with pytest.raises(UsageError):
             saves([wrong])
+
+
+def test_parts_of_urls_are_names() -> None:
+    url = "http://host/%2e%2e/a/%00b%0A.ply/..%2F..%2Fc//%2e/d.ply"
+    assert parts_of(url) == ("http", "host", "a", r"\x00b\n.ply", "c", "d.ply")
