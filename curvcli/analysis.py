@@ -188,7 +188,9 @@ class Analysis:
     @cached_property
     def _findings(self) -> list[Notice]:
         found = findings.of_surface(self.surface, self.columns)
-        found += [*of_stars(self.surface, self.columns, self.chosen, self.totals), *findings.out_of_range(self._lost)]
+        asked = self.settings.scales != DEFAULTS.scales
+        found += of_stars(self.surface, self.columns, self.chosen, self.totals, asked)
+        found += findings.out_of_range(self._lost)
         if self.cut is not None and self.regions is not None:
             found += region_findings(self.cut.surface, self.cut_groups, self.regions)
         return found

@@ -18,6 +18,7 @@ from .surface import Surface
 
 Floats = NDArray[np.float64]
 
+_SCALED = ("willmore_ring", "willmore_corrected", "willmore_fit")
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
 STARS = (
     *("h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2", "kappa_max"),
@@ -79,11 +80,11 @@ def beside(chosen: Iterable[str]) -> tuple[str, ...]:
 
 
 def of_stars(
-    surface: Surface, columns: Mapping[str, Any], chosen: Iterable[str], totals: Mapping[str, Any]
+    surface: Surface, columns: Mapping[str, Any], chosen: Iterable[str], totals: Mapping[str, Any], asked: bool
 ) -> Iterator[Notice]:
     """The notices of densities and energies of stars: on a creased mesh, and of energies on a rough one.
 
-    chosen: the columns that are shown. totals: by the report's keys.
+    chosen: the columns that are shown. totals: by the report's keys. asked: whether a scale other than the usual one is.
     """
     if "h_signed" not in columns or not beside(chosen):
         return
@@ -100,11 +101,14 @@ def of_stars(
         )
         return
     shown = {key: totals[key] for key in _ENERGIES if totals.get(key) is not None}
-    noise = roughness(surface, columns) if shown else None
-    at_scale = {
-        key: value for key, value in totals.items() if key.partition("_")[2].startswith(("ring", "corr", "fit"))
-    }
-    if noise is not None:
+    if not shown:
+        return
+    noise = roughness(surface, columns)
+    scaled = {passes.quantity(name).total or "": name for name in chosen if name.partition(AT_SCALE)[0] in _SCALED}
+    at_scale = {key: totals[key] for key in scaled if totals.get(key) is not None}
+    if noise is None and asked:
+        yield from _apart(columns, {key: scaled[key] for key in at_scale}, shown | at_scale)
+    elif noise is not None:
         values = ", ".join(f"{key} = {value:.4g}" for key, value in (shown | at_scale).items() if value is not None)
         yield Notice.of(
             "rough_energy",
@@ -115,6 +119,38 @@ def of_stars(
             if at_scale
             else "-p willmore_corrected at a --radius or --rings above the steps is that of the surface behind them",
             len(shown),
+        )
+
+
+def _apart(columns: Mapping[str, Any], scaled: Mapping[str, str], totals: Mapping[str, Any]) -> Iterator[Notice]:
+    """The notice of energies at a scale that differ from that of stars, which is no noise, by more than a factor of 2.
+
+    Only vertices where both are known are compared, and only where stars resolve the energy: not of minimal surfaces.
+    """
+    star = columns["h_signed"] ** 2 * columns["star_area"]
+    square, bend = np.nan_to_num(star), np.nan_to_num(-2 * columns["K"])
+    turned = columns["star_area"] - np.sqrt(dot(columns["star_vector"], columns["star_vector"]))
+    known = np.isfinite(star)
+    if (
+        not square.sum() * columns["star_area"][known].sum()
+        > 2 * turned[known].sum() * np.maximum(square + bend, 0.5 * square).sum()
+    ):
+        return
+    found = []
+    for key, name in scaled.items():
+        both = known & np.isfinite(columns[name])
+        one, other = float(star[both].sum()), float(columns[name][both].sum())
+        if not one <= 2 * other <= 4 * one:
+            found.append(key)
+    if found:
+        values = ", ".join(f"{key} = {value:.4g}" for key, value in totals.items())
+        yield Notice.of(
+            "energy_at_scale",
+            [],
+            "[energy|energies] at a scale that [differs|differ] by more than a factor of 2 from that of stars, "
+            f"which is coherent from vertex to vertex: {', '.join(found)} ({values})",
+            "the scale is wide against the shape, or sheets that lie near each other meet in it: take a smaller one",
+            len(found),
         )
 
 
@@ -138,6 +174,8 @@ def roughness(surface: Surface, columns: Mapping[str, Any]) -> float | None:
     h, K, star, vector = (columns[key][..., vertices] for key in ("h_signed", "K", "star_area", "star_vector"))
     known = np.isfinite(h) & np.isfinite(K) & (star > 0)
     h, K, star, vector = h[known], K[known], star[known], vector[:, known]
+    if not len(star):
+        return None
     square = h * h * star
     bend = float(np.maximum(square - 2 * K, 0.5 * square).sum())
     turned = 2 * float((star - np.sqrt(dot(vector, vector))).sum()) / float(star.sum())

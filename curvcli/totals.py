@@ -64,6 +64,9 @@ def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> I
         total = _sum(groups.of(surface, quantity.on), quantity, columns[quantity.name])
         if quantity.parity == "odd":
             total = np.where(orientable if total.ndim == 1 else orientable[:, None], total, np.nan)
+        if total.ndim == 1 and passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0]):
+            known = groups.of(surface, quantity.on).count_true(~np.isnan(columns[quantity.name]))
+            total = np.where(known > 0, total, np.nan)  # no estimate anywhere is no energy of 0
         yield str(quantity.total), total, quantity.length_exponent, quantity.mean_degree
         if quantity.total == "area":
             yield "volume", volumes(surface, groups), 3, 0

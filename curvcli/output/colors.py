@@ -80,11 +80,11 @@ def colorize(
     Where that is a single value, but for rounding, though the values differ, as K of a finely divided cube, it is their
     whole range; where rounding is all by which they differ, they are one value.
     ignore: (V,) values that do not help to choose the range, unless there are no others.
-    floor: (V,) sizes up to which values are rounding, and are coloured as 0.
+    floor: (V,) sizes up to which values are rounding, and are coloured as 0; 0 where a value is exact.
     Errors: UsageError for an unknown map, with the nearest names, and for a range that is none.
     """
     values = _floats(values)
-    rounded = None if floor is None else (np.abs(values) <= floor) & (values != 0)
+    rounded = None if floor is None else (np.abs(values) <= floor) & (floor > 0)
     if rounded is not None and rounded.any():
         values = np.where(rounded, 0.0, values)
     else:

@@ -30,6 +30,7 @@ _LIFTED = 4 * np.sqrt(3)
 _UNSEEN = 1 / 1022
 
 _STAR = ("h", "h_signed", "h_hks", "h_perp", "h_normal")
+_SIGNED = ("h_signed", "h_normal", "kappa_1", "kappa_2")
 _KAPPAS = ("kappa_1", "kappa_2", "kappa_max", "curvedness")
 _DEFECTS = ("K", "K_plus", "K_minus", "K_abs")
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
@@ -41,7 +42,8 @@ def floor(analysis: Analysis, quantity: Quantity, values: Floats) -> Floats | No
 
     Coordinates are rounded to doubles, or to float32 where they all are such numbers; the largest of V normal
     deviations is taken, 1 + √(2 ln V) standard deviations as `K_sigma` and `h_sigma` propagate them, and the rounding
-    of an angle defect. Estimates at a scale are flat where they lift a star by less than the last place.
+    of an angle defect. Estimates at a scale are flat where they lift a star by less than the last place. 0 where a
+    value is exact.
     """
     plain, _, scale = quantity.name.partition(AT_SCALE)
     suffix = next((ending for ending in _ESTIMATES if plain.endswith(ending)), "")
@@ -52,15 +54,21 @@ def floor(analysis: Analysis, quantity: Quantity, values: Floats) -> Floats | No
     elif plain in (*_DEFECTS, *_STAR, *_KAPPAS, *_ENERGIES, "K_density", "H_vec", "area_gradient"):
         bound = lambda rounding: rounding.of_star(plain)  # noqa: E731
     known = np.abs(values[np.isfinite(values)])
-    if bound is None or not known.any():
+    if bound is None or not len(known):
         return None
+    zero = values == 0
+    # An H whose sign is rounding is 0 already; its size tells that it is not so exactly.
+    settled = zero & (np.nan_to_num(analysis._column("h")) != 0) if plain in _SIGNED else np.zeros(len(values), bool)
     rounding = _Rounding(analysis)
-    reach = analysis.surface.in_file_unit(rounding.reach(quantity), quantity.length_exponent)
-    # Where even the coarsest bound is exceeded, or a value has the colour of 0 anyhow, none need be found.
-    if not ((np.abs(values) <= reach) & (np.abs(values) > _UNSEEN * np.median(known))).any():
-        return None
-    found = analysis.surface.in_file_unit(bound(rounding), quantity.length_exponent)
-    return found * (0.5**quantity.mean_degree if analysis.conventions.mean == "average" else 1.0)
+    found = np.zeros(len(values))
+    if known.any():
+        reach = analysis.surface.in_file_unit(rounding.reach(quantity), quantity.length_exponent)
+        # Where even the coarsest bound is exceeded, or a value has the colour of 0 anyhow, none need be found.
+        if ((np.abs(values) <= reach) & (np.abs(values) > _UNSEEN * np.median(known))).any():
+            found = analysis.surface.in_file_unit(bound(rounding), quantity.length_exponent)
+            found = found * (0.5**quantity.mean_degree if analysis.conventions.mean == "average" else 1.0)
+    found = np.where(zero, np.where(settled, np.finfo(np.float64).tiny, 0.0), found)
+    return found if (np.abs(values) <= found)[found > 0].any() else None
 
 
 def edge_floor(analysis: Analysis, theta: Floats) -> Floats:
@@ -73,7 +81,9 @@ def edge_floor(analysis: Analysis, theta: Floats) -> Floats:
         with np.errstate(divide="ignore", invalid="ignore"):
             faces = (inner.one // 3, inner.other // 3)
             turn = sum(place * _longest(analysis)[face] / analysis.columns["face_area"][face] for face in faces)
-            found[inner.where] = np.where(np.abs(theta[inner.where]) <= 4 * turn + _DEFECT, np.inf, 0.0)
+            found[inner.where] = np.where(
+                (theta[inner.where] != 0) & (np.abs(theta[inner.where]) <= 4 * turn + _DEFECT), np.inf, 0.0
+            )
     return found
 
 

@@ -112,3 +112,30 @@ def test_flat_plates_are_not_rough(single: bool) -> None:
         flat = meshes.grid(20, seed)
         points = flat.points * [1, 1, 0] @ np.linalg.qr(random.standard_normal((3, 3)))[0] + random.uniform(0, 50, 3)
         assert said(flat.moved(points.astype(np.float32).astype(np.float64) if single else points)) == {}
+
+
+def energies(name: str, radius: str) -> set[str]:
+    mesh = meshes.of_sample(name, size=3000)
+    names = ["willmore", "willmore_ring", "willmore_corrected"]
+    notices = curvcli.analyze((mesh.points, mesh.faces), names, radius=radius).notices
+    (told,) = [notice.message for notice in notices if notice.code == "energy_at_scale"] or [""]
+    return {name for name in names[1:] if f" {name}" in told.partition("(")[0]}
+
+
+@pytest.mark.parametrize(
+    "name", ["torus", "ellipsoid", "irregular_torus", "trefoil_tube", "unduloid", "saddle", "enneper"]
+)
+def test_energies_at_a_fine_scale_agree(name: str) -> None:
+    assert energies(name, "2e") == set()
+
+
+def test_a_scale_as_wide_as_the_tube_is_named() -> None:
+    assert energies("trefoil_tube", "10e") == {"willmore_ring"}
+    assert energies("ellipsoid", "10e") == set()
+
+
+def test_no_estimate_anywhere_is_no_energy_of_0() -> None:
+    torus = meshes.of_sample("torus", size=3000)
+    found = curvcli.analyze((torus.points, torus.faces), ["h_fit", "willmore_fit"], radius="10e")
+    assert np.isnan(found.vertices["h_fit"]).all()
+    assert found.totals["willmore_fit"] is None

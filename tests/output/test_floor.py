@@ -72,7 +72,8 @@ def test_a_fold_has_the_mean_curvature_of_its_ridge_alone() -> None:
     ridge[210:231] = True
     known = np.isfinite(analysis.vertices["h_signed"])
     assert scale.rounded is not None
-    np.testing.assert_array_equal(scale.rounded[known], ~ridge[known] & (analysis.vertices["h_signed"][known] != 0))
+    rounding = analysis.column("h")
+    np.testing.assert_array_equal(scale.rounded[known], ~ridge[known] & (rounding[known] != 0))
     assert f"{int(scale.rounded.sum())} are 0 within rounding" in range_text(scale, None)
     assert len(np.unique(scale.rgb[known & ~ridge], axis=0)) == 1
 
