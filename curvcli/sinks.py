@@ -54,6 +54,10 @@ class Sink(io.RawIOBase):
                 break
         return count
 
+    def forget(self) -> None:
+        """Take what comes from now on and write none of it."""
+        self._forgets = True
+
     def _refuse(self, error: OSError) -> None:
         self._forgets = True
         self.failure = OutputError(f"{self.name}: cannot be written: {error.strerror or error}")

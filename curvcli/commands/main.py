@@ -148,7 +148,7 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
         ending.too_late()
         code = explain(error) if ending.number is None else interrupted(ending)
     ending.too_late()
-    refusal = settle()
+    refusal = settle(ending.number is not None)
     if refusal is not None and code in (OK, FAILED_CHECK, INPUT):  # nobody has told it
         code = explain(refusal)
     sys.exit(code)

@@ -30,11 +30,16 @@ def complete() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-def settle() -> OutputError | None:
-    """Write what stdout still holds; its refusal where it has refused anything."""
+def settle(interrupted: bool) -> OutputError | None:
+    """Write what stdout still holds; its refusal where it has refused anything.
+
+    Of an interrupted program it is forgotten: nobody may be there to read it, and nothing interrupts the end.
+    """
+    raw = getattr(getattr(sys.stdout, "buffer", None), "raw", None)
+    if interrupted and isinstance(raw, Sink):
+        raw.forget()
     try:
         sys.stdout.flush()
     except OutputError as error:
         return error
-    raw = getattr(getattr(sys.stdout, "buffer", None), "raw", None)
     return raw.failure if isinstance(raw, Sink) else None

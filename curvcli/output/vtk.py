@@ -8,7 +8,7 @@ from typing import Any, BinaryIO, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import Notice
+from ..errors import InputError, Notice
 from ..loading.model import Labels
 from ..printable import shown
 from .names import fitting, respelt, xml_attribute, xml_name
@@ -18,6 +18,7 @@ from .tables import Column
 
 _TRIANGLE, _POLYGON, _QUAD = 5, 7, 9
 _COLORS = "RGB"
+_MOST = 8192
 
 
 def write_vtk(
@@ -29,7 +30,14 @@ def write_vtk(
     end in _x, _y, _z become a vector array as well. Labels are codes, -1 for none, whose meaning stands in the comments
     of the XML: field arrays of text would keep other readers from the file. The colours are the array RGB. A name that
     XML cannot hold, or that is taken, is spelt in another way, which is returned.
+    Errors: InputError for more properties than VTK writes in time: it looks through all for each.
     """
+    count = len(parts.get("vertex_properties") or ()) + len(parts.get("face_properties") or ())
+    if count > _MOST:
+        raise InputError(
+            f"{count:,} properties are too many for {suffix}, at most {_MOST:,} expected",
+            hint=".ply holds them all",
+        )
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 

@@ -204,3 +204,24 @@ def test_a_radius_that_takes_in_more_than_it_seems(monkeypatch: pytest.MonkeyPat
     surface = curvcli.Surface(points, faces)
     with pytest.raises(InputError, match="the radius takes in more than 100 vertices"):
         list(neighbourhoods.neighbourhoods(surface, parse_radius("1")))
+
+
+@pytest.mark.parametrize("suffix", ["vtp", "vtu"])
+def test_very_many_properties(suffix: str, tmp_path: Path) -> None:
+    """VTK looks through all arrays for each: 30,000 took 40 seconds, and four times as many 16 times as long."""
+    for count in (2000, 20_000):
+        properties = [f"property uchar p{k}" for k in range(count)]
+        head = [
+            "ply",
+            "format ascii 1.0",
+            "element vertex 3",
+            *(f"property double {axis}" for axis in "xyz"),
+            *properties,
+        ]
+        faces = ["element face 1", "property list uchar int vertex_indices", "end_header"]
+        rows = [f"{x} {y} 0{' 1' * count}" for x, y in ((0, 0), (1, 0), (0, 1))]
+        (tmp_path / f"{count}.ply").write_text("\n".join([*head, *faces, *rows, "3 0 1 2"]) + "\n")
+    assert run("analyze", tmp_path / "2000.ply", "-q", "-o", tmp_path / f"k.{suffix}").code == 0
+    ended = run("analyze", tmp_path / "20000.ply", "-q", "-o", tmp_path / f"l.{suffix}")
+    assert (ended.code, f"properties are too many for .{suffix}" in ended.complaint) == (3, True)
+    assert run("analyze", tmp_path / "20000.ply", "-q", "-o", tmp_path / "l.ply").code == 0

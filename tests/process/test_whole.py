@@ -6,6 +6,7 @@ import contextlib
 import fcntl
 import os
 import resource
+import signal
 import subprocess
 import time
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ from typing import Any
 import pytest
 
 from tests.cli.program import CUBE, DISK, command, curvcli, environment, served, start
+from tests.process.watch import unread, until
 
 # What each command writes to stdout, by every way that text and bytes take.
 WRITERS: tuple[tuple[str, ...], ...] = (
@@ -212,3 +214,33 @@ def test_a_stderr_that_takes_nothing_breaks_nothing(kind: str, code: int) -> Non
     done = subprocess.run(words, stdout=subprocess.PIPE, stderr=write, env=environment(), timeout=120)
     assert done.returncode == code
     assert b"FAIL" in done.stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize("blocking", [True, False])
+def test_a_reader_that_never_reads_can_be_left(number: signal.Signals, blocking: bool, small: Path) -> None:
+    """The pipe is full and stays so: an interrupt ends the writer all the same."""
+    read, write = os.pipe()
+    os.set_blocking(write, blocking)
+    fcntl.fcntl(write, fcntl.F_SETPIPE_SZ, 4096)
+    process = start("analyze", small, "--json", stdout=write, stderr=subprocess.PIPE)
+    until(lambda: unread(read) == 4096, process)
+    time.sleep(0.2)  # until it waits
+    process.send_signal(number)
+    process.wait(timeout=60)
+    assert process.stderr is not None
+    assert (process.returncode, process.stderr.read()) == (128 + number, b"curvcli: interrupted\n")
+    process.stderr.close()
+    os.close(read)
+    os.close(write)
+
+
+def test_a_batch_keeps_its_verdict(tmp_path: Path) -> None:
+    pipe = closed_pipe()
+    (tmp_path / "bad.obj").write_text("v 0 0 0\n")
+    line = served("batch", CUBE, str(tmp_path / "bad.obj"), "-o", str(tmp_path / "out"), "-j", "1")
+    done = subprocess.run(line, stdout=pipe, stderr=subprocess.PIPE, env=environment(), timeout=120)
+    os.close(pipe)
+    assert done.returncode == 3
+    assert done.stderr.count(b"\n") == 1
+    assert (tmp_path / "out" / "summary.csv").exists()

@@ -25,11 +25,12 @@ def feed(process: subprocess.Popen[bytes], data: bytes) -> None:
     process.stdin.write(data)
     process.stdin.flush()
     pipe = process.stdin.fileno()
-    until(lambda: _unread(pipe) == 0 and _sleeps(process), process)
+    until(lambda: unread(pipe) == 0 and _sleeps(process), process)
     assert process.poll() is None
 
 
-def _unread(pipe: int) -> int:
+def unread(pipe: int) -> int:
+    """Bytes in a pipe."""
     (count,) = struct.unpack("i", fcntl.ioctl(pipe, termios.FIONREAD, b"\0" * 4))
     return int(count)
 
