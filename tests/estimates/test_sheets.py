@@ -147,6 +147,22 @@ def test_a_patch_is_as_it_is_by_itself_and_whichever_way_the_others_are_wound(
             assert_same(whole, estimates(given.with_faces(faces).surface(), **scale), kept, n, reversed_)
 
 
+@pytest.mark.parametrize("seed", range(25))
+def test_random_complexes(seed: int) -> None:
+    """Triangles thrown together: with edges of many faces, several fans of one patch, and patches of one side."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(5, 14))
+    faces = [rng.choice(n, 3, replace=False) for _ in range(int(rng.integers(4, 30)))]
+    given = meshes.mesh(rng.normal(size=(n, 3)), faces)
+    surface = given.surface()
+    whole, patch = estimates(surface), surface.orientation.patch
+    for each, oriented in enumerate(surface.orientation.orientable):
+        alone = given.with_faces(given.faces[patch == each]).surface()
+        if alone.orientable == oriented:  # what cuts a strip open may be all that gives it a side
+            kept = alone.referenced & ~surface.nonmanifold
+            assert_same(whole, estimates(alone), kept, n)
+
+
 @pytest.mark.parametrize("page", range(5))
 def test_a_page_taken_out_of_a_book(page: int) -> None:
     given = NONMANIFOLD["book of 5"]
