@@ -84,7 +84,7 @@ def of_stars(
 ) -> Iterator[Notice]:
     """The notices of densities and energies of stars: on a creased mesh, and of energies on a rough one.
 
-    chosen: the columns that are shown. totals: by the report's keys. asked: whether a scale other than the usual one is.
+    chosen: the columns that are shown. totals: by the report's keys. asked: whether a scale is given.
     """
     if "h_signed" not in columns or not beside(chosen):
         return
