@@ -195,13 +195,13 @@ from curvcli.commands.allocation import keep_memory
 keep_memory()
 from curvcli.batch.model import Item, Limits, Settings
 from curvcli.batch.run import run
-from curvcli.batch.worker import _limit
+from curvcli.memory import bound
 from curvcli.pipeline import load_passes
 load_passes()
 for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
     importlib.import_module(name)
 LIMIT = int(sys.argv[2]) << 20
-_limit(LIMIT)
+bound(LIMIT)
 for number in range(3):
     outputs = (("", os.path.abspath(f"{number}.ply")),)
     item = Item(path="m", place=sys.argv[1], outputs=outputs)
