@@ -116,6 +116,8 @@ def _read_ascii(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64]
     except Untidy:
         pass
     except InputError as error:
+        if b"\0" in data:
+            raise  # binary data among the text: tokens would pass over them
         problem = error
     else:
         if all(notice.code != "unknown_statements" for notice in notices):
