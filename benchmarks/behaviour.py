@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from rich.table import Table
 
 from curvcli.errors import CurvcliError
-from curvcli.output.stl import write_stl
+from curvcli.output.meshes.stl import write_stl
 from curvcli.samples import get
 
 from . import peers

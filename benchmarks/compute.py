@@ -25,13 +25,14 @@ QUICK = (OURS, AS_COMMAND, "libigl angle defect", "libigl", "VTK", "trimesh angl
 
 def curvcli(points: Any, faces: Any) -> dict[str, Any]:
     """The core preset and every count of the topology."""
-    from curvcli.census import census, classify
-    from curvcli.pipeline import CORE, evaluate, prepare
-    from curvcli.surface import Surface
+    from curvcli.curvatures.catalogue import CORE, loaded
+    from curvcli.curvatures.engine import evaluate, prepare
+    from curvcli.mesh.counts import census, classify
+    from curvcli.mesh.surface import Surface
 
     surface = Surface(points, faces)
-    prepare(surface, CORE)  # as every analysis does
-    columns = evaluate(surface, CORE)
+    prepare(loaded(), surface, CORE)  # as every analysis does
+    columns = evaluate(loaded(), surface, CORE)
     return {**columns, "census": census(surface, surface.whole), "kinds": classify(surface, surface.whole)}
 
 

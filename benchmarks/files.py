@@ -23,7 +23,7 @@ NAMES = ["vertex", "x", "y", "z", *(f"column_{k}" for k in range(8))]
 
 def read_curvcli(path: str) -> object:
     """Positions and triangles of the file, equal positions of STL merged exactly, all that is wrong with it counted."""
-    from curvcli.loading.surfaces import load
+    from curvcli.loading.load import load
 
     return load(path)
 
@@ -45,7 +45,7 @@ def read_fromfile(path: str) -> object:
 
 def write_curvcli(path: str, names: list[str], table: list[Any]) -> None:
     """The table of the command."""
-    from curvcli.output.tables import write_table
+    from curvcli.output.tables.write import write_table
 
     with open(path, "wb") as stream:
         write_table(stream, dict(zip(names, table, strict=True)), ".csv")
@@ -53,7 +53,7 @@ def write_curvcli(path: str, names: list[str], table: list[Any]) -> None:
 
 def write_ply(path: str, names: list[str], table: list[Any]) -> None:
     """A PLY file with every column as a property, without faces."""
-    from curvcli.output.ply import write_ply as write
+    from curvcli.output.meshes.ply import write_ply as write
 
     columns = dict(zip(names, table, strict=True))
     points = np.stack([columns.pop(axis) for axis in "xyz"], axis=1)

@@ -18,10 +18,11 @@ PRESETS = ("topology", "core", "paper")
 
 def preset(name: str, path: str) -> None:
     """Time a preset with the topology, per vertex, on the mesh, after one run of it on a small mesh."""
-    from curvcli.census import census, classify
-    from curvcli.pipeline import evaluate, prepare, resolve
+    from curvcli.curvatures.catalogue import loaded, resolve
+    from curvcli.curvatures.engine import evaluate, prepare
+    from curvcli.mesh.counts import census, classify
+    from curvcli.mesh.surface import Surface
     from curvcli.samples import get
-    from curvcli.surface import Surface
 
     small = get("icosphere")(size=1000)
     with np.load(path) as stored:
@@ -30,8 +31,8 @@ def preset(name: str, path: str) -> None:
         begin = time.perf_counter()
         surface = Surface(points, faces)
         names = resolve([name])
-        prepare(surface, names)  # as every analysis does
-        found = evaluate(surface, names)
+        prepare(loaded(), surface, names)  # as every analysis does
+        found = evaluate(loaded(), surface, names)
         census(surface, surface.whole), classify(surface, surface.whole)
         elapsed = time.perf_counter() - begin
     report({"seconds": elapsed / len(points) * 1e6, "columns": len(found)})

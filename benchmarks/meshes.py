@@ -10,7 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from curvcli.output.stl import write_stl
+from curvcli.output.meshes.stl import write_stl
 from curvcli.samples import get
 
 Shape = Literal["sphere", "torus", "plate"]

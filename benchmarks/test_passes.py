@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from benchmarks.meshes import make
-from curvcli.declare import passes
-from curvcli.neighbourhoods import forget
-from curvcli.pipeline import arguments, evaluate, load_passes
-from curvcli.surface import Surface
+from curvcli.curvatures.catalogue import load_passes, loaded
+from curvcli.curvatures.engine import arguments, evaluate
+from curvcli.curvatures.registry import passes
+from curvcli.mesh.neighbourhoods import forget
+from curvcli.mesh.surface import Surface
 
 Columns = dict[str, NDArray[Any]]
 
@@ -32,7 +33,7 @@ def everything(mesh: tuple[NDArray[np.float64], NDArray[np.int64]]) -> tuple[Sur
     """The surface with its edges and topology, and all columns, so that every pass finds what it needs."""
     surface = Surface(*mesh)
     surface.work_out_topology()
-    return surface, evaluate(surface, [quantity.name for quantity in passes.quantities(public=False)])
+    return surface, evaluate(loaded(), surface, [quantity.name for quantity in passes.quantities(public=False)])
 
 
 def test_topology(benchmark: BenchmarkFixture, mesh: tuple[NDArray[np.float64], NDArray[np.int64]]) -> None:

@@ -17,26 +17,23 @@ if TYPE_CHECKING:
     from typing import Any
 
     from . import errors
-    from .analysis import Analysis, analyze
-    from .declare import passes
-    from .loading.surfaces import load
-    from .surface import Surface
+    from .api import Analysis, Surface, analyze, load
+    from .curvatures.registry import passes
 
 __all__ = ["Analysis", "Surface", "__version__", "analyze", "errors", "load", "passes"]
 
-_HOME = {"Analysis": "analysis", "Surface": "surface", "analyze": "analysis", "load": "loading.surfaces"}
+_HOME = {"Surface": "mesh.surface", "load": "loading.load"}
 
 
 def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     if name == "passes":
-        import_module(".pipeline", __name__).load_passes()
-        return import_module(".declare", __name__).passes
+        return import_module(".curvatures.catalogue", __name__).loaded()
     if name == "errors":
         return import_module(".errors", __name__)
-    if name in _HOME:
-        return getattr(import_module(f".{_HOME[name]}", __name__), name)
+    if name in __all__:
+        return getattr(import_module(f".{_HOME.get(name, 'api')}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

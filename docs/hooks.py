@@ -8,7 +8,7 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
-from curvcli.pages import current
+from docs.pages import current
 
 
 def on_page_read_source(page: Any, config: Any) -> str:

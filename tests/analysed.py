@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from tests.meshes import Mesh, of_sample
 
 

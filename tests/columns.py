@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
-from curvcli.declare import Quantity, passes
-from curvcli.surface import Surface
+from curvcli.api import Analysis
+from curvcli.curvatures.quantity import Quantity
+from curvcli.curvatures.registry import passes
+from curvcli.mesh.surface import Surface
 
 Array = NDArray[Any]
 

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from curvcli.mesh.surface import Surface
 from curvcli.samples import get
-from curvcli.surface import Surface
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 import curvcli
-from curvcli import cones
-from curvcli.cones import normal_cone_areas
+from curvcli.curvatures.kernels import normal_cones as cones
+from curvcli.curvatures.kernels.normal_cones import normal_cone_areas
 from tests import meshes
 from tests.exact_cones import by_integers
 from tests.meshes import Mesh, mesh

@@ -19,11 +19,11 @@ import pytest
 from click.testing import CliRunner
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.commands.main import cli
-from curvcli.declare import Element
+from curvcli.curvatures.quantity import Element
+from curvcli.mesh.surface import Surface
 from curvcli.report.model import encode
-from curvcli.surface import Surface
 from tests import exact_values, meshes
 from tests.cli.program import environment
 from tests.columns import PUBLIC

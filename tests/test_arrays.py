@@ -12,8 +12,8 @@ import pytest
 import trimesh
 
 import curvcli
-from curvcli import arrays
 from curvcli.errors import InputError
+from curvcli.mesh import arrays
 from tests import meshes
 
 # Of whole numbers, which every type holds.
@@ -179,7 +179,7 @@ def test_only_files_are_welded(tmp_path: Path, weld: str | float) -> None:
 @pytest.mark.parametrize("kind", ["i8", ">i4", "u4", "i4"])
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_arrays_are_taken_over_in_blocks(monkeypatch: pytest.MonkeyPatch, kind: str, order: Literal["C", "F"]) -> None:
-    monkeypatch.setattr("curvcli.arrays.LONG", 4)
+    monkeypatch.setattr("curvcli.mesh.arrays.LONG", 4)
     faces = np.random.default_rng(0).integers(0, 30, (19, 3))
     triangles = arrays.as_triangles(np.array(faces, kind, order=order), 30)
     np.testing.assert_array_equal(triangles, faces)

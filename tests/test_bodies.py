@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from curvcli.bodies import taken_apart
+from curvcli.mesh.bodies import taken_apart
 from tests import meshes
 from tests.check.gates import judged, outcome
 from tests.meshes import Mesh

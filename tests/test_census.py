@@ -8,10 +8,10 @@ import inspect
 import numpy as np
 
 import curvcli
-from curvcli.cache import cached
-from curvcli.census import census
-from curvcli.groups import Groups, by_label
-from curvcli.surface import Surface
+from curvcli.mesh.counts import census
+from curvcli.mesh.groups import Groups, by_label
+from curvcli.mesh.surface import Surface
+from curvcli.support.cache import cached
 from tests import meshes
 from tests.exact_values import MESHES
 

@@ -9,7 +9,8 @@ import pytest
 
 import curvcli
 from curvcli.checks import rules
-from curvcli.pipeline import evaluate
+from curvcli.curvatures.catalogue import loaded
+from curvcli.curvatures.engine import evaluate
 from tests import meshes
 from tests.analysed import sample
 
@@ -42,7 +43,7 @@ def test_less_absolute_curvature_than_there_must_be_is_noticed() -> None:
     """A torus of revolution is tight: a little less at one vertex is too little."""
     surface = sample("torus").surface
     rule = rules["total_absolute_curvature"]
-    found = evaluate(surface, rule.needs)
+    found = evaluate(loaded(), surface, rule.needs)
     (check,) = rule.run(surface, surface.whole, found)
     assert (check.status, check.expected) == ("pass", pytest.approx(8 * math.pi))
     values = found["K_plus"].copy()

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 import curvcli
 from curvcli.checks import Check, rules
+from curvcli.curvatures.catalogue import loaded
+from curvcli.curvatures.engine import evaluate
 from curvcli.errors import InputError
-from curvcli.groups import Groups
-from curvcli.pipeline import evaluate
-from curvcli.surface import Surface
+from curvcli.mesh.groups import Groups
+from curvcli.mesh.surface import Surface
 from tests import meshes
 from tests.meshes import Mesh
 
@@ -34,7 +35,7 @@ GUARDS = {
 
 def columns(surface: Surface) -> Columns:
     wanted = {need for rule in rules.values() for need in rule.needs}
-    return evaluate(surface, wanted)
+    return evaluate(loaded(), surface, wanted)
 
 
 def run(name: str, surface: Surface, found: Columns) -> list[Check]:
@@ -127,7 +128,7 @@ def test_first_variations_notice_gradients_that_are_none(column: str) -> None:
 
 def test_every_public_integral_is_guarded_by_a_check() -> None:
     """A column whose sum is an identity's side is named in the needs of some check."""
-    from curvcli.declare import passes
+    from curvcli.curvatures.registry import passes
 
     needed = {need for rule in rules.values() for need in rule.needs}
     assert {q.name for q in passes.quantities() if q.name in GUARDS} <= needed

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given as drawn
 from hypothesis import settings
 
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from tests import strategies
 from tests.analysed import analyse, sample, total
 from tests.meshes import Floats, Mesh

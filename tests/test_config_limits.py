@@ -11,7 +11,8 @@ import click
 import pytest
 
 from curvcli.commands.config import configure, nearest
-from curvcli.commands.main import COMMANDS, cli
+from curvcli.commands.main import cli
+from curvcli.commands.names import COMMANDS
 from curvcli.errors import UsageError
 from tests.cli.program import CUBE, MOBIUS, curvcli
 

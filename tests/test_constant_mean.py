@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis import Analysis
-from curvcli.differences import Tolerance, compare_reports
-from curvcli.report.stored import decode
-from curvcli.requirements import parse
+from curvcli.api import Analysis
+from curvcli.checks.requirements import parse
+from curvcli.report.compare.stored import decode
+from curvcli.report.compare.values import Tolerance, compare_reports
 from curvcli.samples.catalogue import specs
 from tests import meshes
 from tests.meshes import Mesh, joined, mesh, of_sample, reversed_faces

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.errors import InputError
-from curvcli.loading.model import MeshFile
+from curvcli.mesh.file import MeshFile
+from curvcli.mesh.surface import Surface
 from curvcli.samples import get
-from curvcli.surface import Surface
 from tests import irregular, meshes
 from tests.irregular import SURFACES, error
 

@@ -9,9 +9,11 @@ import pytest
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.declare import Column, Pass, Quantity, Registry, curvature_pass, passes
+from curvcli.curvatures.quantity import Quantity
+from curvcli.curvatures.registry import Pass, Registry, curvature_pass, passes
 from curvcli.errors import UsageError
-from curvcli.surface import Surface
+from curvcli.mesh.surface import Surface
+from curvcli.support.arrays import Column
 from tests import meshes
 
 _ = curvcli.passes  # importing registers them

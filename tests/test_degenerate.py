@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
-from curvcli.declare import passes
+from curvcli.api import Analysis
+from curvcli.curvatures.registry import passes
 from tests import meshes
 from tests.columns import PUBLIC
 from tests.meshes import Mesh, mesh

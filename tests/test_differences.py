@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.cell_differences import compare_cells
-from curvcli.declare import Pass, Quantity, Registry, passes
-from curvcli.differences import Tolerance, compare_reports, leaves, selector
-from curvcli.pipeline import load_passes
+from curvcli.curvatures.catalogue import load_passes
+from curvcli.curvatures.quantity import Quantity
+from curvcli.curvatures.registry import Pass, Registry, passes
+from curvcli.report.compare.cells import compare_cells
+from curvcli.report.compare.values import Tolerance, compare_reports, leaves, selector
 from curvcli.samples import get
 
 

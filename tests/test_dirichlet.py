@@ -10,16 +10,17 @@ from hypothesis import strategies as st
 
 import curvcli
 from curvcli.checks import Check, rules
-from curvcli.cotangents import dirichlet
-from curvcli.pipeline import evaluate
-from curvcli.surface import Surface
+from curvcli.curvatures.catalogue import loaded
+from curvcli.curvatures.engine import evaluate
+from curvcli.curvatures.kernels.cotangents import dirichlet
+from curvcli.mesh.surface import Surface
 from tests.meshes import ZOO, Mesh, zoo
 from tests.strategies import any_mesh
 
 
 def the_check(surface: Surface, **disturbed: object) -> Check:
     rule = rules["dirichlet"]
-    columns = {**evaluate(surface, rule.needs), **disturbed}
+    columns = {**evaluate(loaded(), surface, rule.needs), **disturbed}
     return rule.run(surface, surface.whole, columns)[0]
 
 
@@ -57,7 +58,7 @@ def test_gradient_against_differences() -> None:
 
 def test_degenerate_face_is_null() -> None:
     surface = zoo("with_flat_face").surface()
-    columns = evaluate(surface, ["dirichlet", "dirichlet_gradient", "degenerate"])
+    columns = evaluate(loaded(), surface, ["dirichlet", "dirichlet_gradient", "degenerate"])
     assert np.flatnonzero(np.isnan(columns["dirichlet"])).tolist() == [surface.n_faces - 1]
     assert (np.isnan(columns["dirichlet_gradient"][0]) == columns["degenerate"]).all()
     told = the_check(surface)
@@ -68,7 +69,7 @@ def test_degenerate_face_is_null() -> None:
 @pytest.mark.parametrize("value", [1e-12, np.nan])
 def test_disturbed_values_are_caught(value: float) -> None:
     surface = zoo("torus").surface()
-    columns = evaluate(surface, ["dirichlet", "dirichlet_gradient", "star_curvature"])
+    columns = evaluate(loaded(), surface, ["dirichlet", "dirichlet_gradient", "star_curvature"])
     assert the_check(surface).status == "pass"
     for name, array in columns.items():
         disturbed = array.copy()

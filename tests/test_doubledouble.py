@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from curvcli.doubledouble import DoubleDouble, corner_products
+from curvcli.support.double_double import DoubleDouble, corner_products
 
 _parts = st.floats(-1e30, 1e30).filter(lambda x: x == 0 or abs(x) > 1e-30)
 

@@ -11,8 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
-from curvcli.declare import Quantity, passes
+from curvcli.api import Analysis
+from curvcli.curvatures.quantity import Quantity
+from curvcli.curvatures.registry import passes
 from tests import exact_values as exact
 from tests.columns import for_all
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.samples import get, names
 from tests import exact_values, meshes, strategies
 from tests.brute import Complex

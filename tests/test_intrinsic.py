@@ -11,9 +11,9 @@ from scipy.spatial import Delaunay, Voronoi
 
 import curvcli
 from curvcli.curvatures.delaunay import circumcentric_areas, delaunay
-from curvcli.gluing import glue
-from curvcli.intrinsic import IntrinsicTriangulation
-from curvcli.topology import next_corner, previous_corner
+from curvcli.curvatures.kernels.gluing import glue
+from curvcli.curvatures.kernels.intrinsic_delaunay import IntrinsicTriangulation
+from curvcli.mesh.topology import next_corner, previous_corner
 
 from . import exact_values as exact
 from . import strategies
@@ -265,8 +265,8 @@ def test_flips_can_be_given_up() -> None:
 
 
 def test_what_was_given_up_is_null_and_reported(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("curvcli.intrinsic._MOST_FLIPS", 0)
-    monkeypatch.setattr("curvcli.intrinsic._MOST_FLIPS_PER_EDGE", 0)
+    monkeypatch.setattr("curvcli.curvatures.kernels.intrinsic_delaunay._MOST_FLIPS", 0)
+    monkeypatch.setattr("curvcli.curvatures.kernels.intrinsic_delaunay._MOST_FLIPS_PER_EDGE", 0)
     result = curvcli.analyze(tuple(torus()), ["A_voronoi"])
     notice = next(notice for notice in result.notices if notice.code == "voronoi_unfinished")
     assert notice.count == np.isnan(result.vertices["A_voronoi"]).sum() > 0

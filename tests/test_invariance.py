@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from curvcli.declare import Quantity
+from curvcli.curvatures.quantity import Quantity
 from tests import meshes
 from tests.columns import PUBLIC, Array, agree, everything, for_all, same
 from tests.meshes import Mesh

@@ -81,6 +81,8 @@ def test_thin_stars_of_many_edges(degree: int) -> None:
         for s in THIN:
             for axes in (np.eye(3), meshes.rotation(degree)):
                 thin = np.round(star * 2.0**20) / 2.0**20 * [1, s, s * s] @ axes
-                found = curvcli.cones.normal_cone_areas(np.ascontiguousarray(thin.T[:, :, None]))
+                found = curvcli.curvatures.kernels.normal_cones.normal_cone_areas(
+                    np.ascontiguousarray(thin.T[:, :, None])
+                )
                 wanted = float(exact_cones.of_star(np.zeros(3), thin))
                 assert abs(found[0] - wanted) <= 1e-14 * degree

@@ -13,12 +13,12 @@ import pytest
 from click.testing import CliRunner
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.commands.main import cli
 from curvcli.errors import MissingExtraError
 from curvcli.output.formats import FORMATS
-from curvcli.report.text import show
-from curvcli.tables import TABLES
+from curvcli.output.tables.columns import TABLES
+from curvcli.report.terminal.summary import show
 from tests import exact_values, meshes
 
 
@@ -88,7 +88,7 @@ def test_one_mesh_is_let_go_before_the_next_is_read(
     command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Many meshes in one call need the memory of one, also after one that fails."""
-    from curvcli.loading import surfaces
+    from curvcli.loading import load as surfaces
 
     alive: list[weakref.ref[curvcli.Surface]] = []
     load = surfaces.load

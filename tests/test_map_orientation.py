@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.maps import SurfaceMap
+from curvcli.analysis.maps import SurfaceMap
 from tests.meshes import Mesh, grid, of_sample, rotation, zoo
 
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import curvcli
+from curvcli.analysis.maps import SurfaceMap
 from curvcli.errors import InputError
-from curvcli.maps import SurfaceMap
-from curvcli.surface import Surface
+from curvcli.mesh.surface import Surface
 from tests.meshes import ZOO, Mesh, grid, of_sample, rotation, zoo
 from tests.strategies import any_mesh
 

@@ -8,7 +8,7 @@ from hypothesis import given as drawn
 from hypothesis import strategies as st
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from tests import meshes
 from tests.meshes import Floats, Mesh, of_sample
 

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 import curvcli
 from curvcli.errors import UsageError
-from curvcli.neighbourhoods import mean_edge_length, neighbourhoods, radius_of, sizes, sums
-from curvcli.settings import Scale, Settings, options_of, parse_radius, parse_scales, rings
-from curvcli.surface import Surface
+from curvcli.mesh.neighbourhoods import mean_edge_length, neighbourhoods, radius_of, sizes, sums
+from curvcli.mesh.scale import Scale, Settings, options_of, parse_radius, parse_scales, rings
+from curvcli.mesh.surface import Surface
 from tests import irregular, meshes
 
 Mask = NDArray[np.bool_]
@@ -174,7 +174,7 @@ def test_threads_and_blocks_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> No
 
     def found(threads: str, rows: int) -> list[bytes]:
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
-        monkeypatch.setattr("curvcli.neighbourhoods._ROWS_PER_BLOCK", rows)
+        monkeypatch.setattr("curvcli.mesh.neighbourhoods._ROWS_PER_BLOCK", rows)
         analysis = curvcli.analyze(given.surface(), names, rings=2)
         return [analysis.column(name).tobytes() for name in names]
 

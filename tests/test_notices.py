@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import curvcli
-from curvcli.plurals import agree, counted, number_of
+from curvcli.support.words import agree, counted, number_of
 from tests.fuzz.contract import in_process
 from tests.fuzz.nasty import TETRAHEDRON, TEXT_STL
 

@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.declare import CELL_AREA, NO_QUANTITIES, Element, Registry, passes
+from curvcli.curvatures.catalogue import CORE, loaded, resolve
+from curvcli.curvatures.engine import arguments, evaluate, needs, schedule
+from curvcli.curvatures.order import COLUMNS, EDGES, FACES, TOTALS, VERTICES
+from curvcli.curvatures.quantity import CELL_AREA, NO_QUANTITIES, Element
+from curvcli.curvatures.registry import Registry, passes
 from curvcli.errors import UsageError
-from curvcli.order import COLUMNS, EDGES, FACES, TOTALS, VERTICES
-from curvcli.pipeline import CORE, arguments, evaluate, needs, resolve, schedule
 from tests import meshes
 from tests.columns import PUBLIC
 
@@ -28,7 +30,7 @@ def test_presets() -> None:
 
 @pytest.mark.parametrize(("element", "order"), [("vertex", VERTICES), ("edge", EDGES), ("face", FACES)])
 def test_every_column_of_ours_has_its_place(element: Element, order: tuple[str, ...]) -> None:
-    """Tables do not follow the order of imports: `curvcli/order.py` says where a column stands."""
+    """Tables do not follow the order of imports: `curvcli/curvatures/order.py` says where a column stands."""
     assert [quantity.name for quantity in passes.quantities(element)] == list(order)
 
 
@@ -83,7 +85,7 @@ def test_what_is_no_name(name: str) -> None:
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_only_what_is_needed_runs_and_each_after_its_needs(name: str) -> None:
-    order = schedule([name], "barycentric")
+    order = schedule(loaded(), [name], "barycentric")
     names = [one.name for one in order]
     assert len(set(names)) == len(names)
     known: set[str] = set()
@@ -108,29 +110,29 @@ def test_each_pass_runs_once(monkeypatch: pytest.MonkeyPatch) -> None:
     passes_before = dict(passes.items())
     monkeypatch.setattr(passes, "_passes", counting)
     monkeypatch.setattr(passes, "_providers", {q.name: one for one in counting.values() for q in one.provides})
-    evaluate(meshes.tetrahedron().surface(), list(PUBLIC))
+    evaluate(loaded(), meshes.tetrahedron().surface(), list(PUBLIC))
     assert set(runs.values()) == {1}
     runs.clear()
-    evaluate(meshes.tetrahedron().surface(), ["A"])
+    evaluate(loaded(), meshes.tetrahedron().surface(), ["A"])
     assert set(runs) == {"star_sums", "A"}
 
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_intermediates_are_let_go(name: str) -> None:
-    assert set(evaluate(meshes.tetrahedron().surface(), [name])) == {name}
+    assert set(evaluate(loaded(), meshes.tetrahedron().surface(), [name])) == {name}
 
 
 def test_what_is_known_is_not_computed_again() -> None:
     surface = meshes.tetrahedron().surface()
     known = {"K": np.full(4, 12.0)}
-    found = evaluate(surface, ["K_density"], known=known)
-    np.testing.assert_array_equal(found["K_density"] * evaluate(surface, ["A"])["A"], known["K"])
+    found = evaluate(loaded(), surface, ["K_density"], known=known)
+    np.testing.assert_array_equal(found["K_density"] * evaluate(loaded(), surface, ["A"])["A"], known["K"])
 
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_columns_are_frozen(name: str) -> None:
     surface = meshes.zoo("cap").surface()
-    (column,) = evaluate(surface, [name]).values()
+    (column,) = evaluate(loaded(), surface, [name]).values()
     assert not column.flags.writeable
     size = {"vertex": surface.n_vertices, "edge": len(surface.edges), "face": surface.n_faces}[PUBLIC[name].on]
     assert column.shape == ((3, size) if PUBLIC[name].vector else (size,))
@@ -153,7 +155,7 @@ def test_every_pass_is_callable_on_a_surface(name: str) -> None:
 
 def test_the_bare_function_is_there() -> None:
     surface = meshes.tetrahedron().surface()
-    full = evaluate(surface, ["H_vec", "star_vector", "star_area"])
+    full = evaluate(loaded(), surface, ["H_vec", "star_vector", "star_area"])
     np.testing.assert_array_equal(
         curvcli.passes.h.compute(surface.interior, full["H_vec"], full["star_vector"], full["star_area"]),
         curvcli.passes.h(surface),
@@ -164,7 +166,7 @@ def test_the_bare_function_is_there() -> None:
 def test_what_looks_at_one_vertex_at_a_time_says_the_same_of_some(name: str) -> None:
     surface = meshes.zoo("with_flat_face").surface()
     one, some = passes[name], np.random.default_rng(1).permutation(surface.n_vertices)[:7]
-    have = evaluate(surface, {*needs(one, "barycentric"), *(quantity.name for quantity in one.provides)})
+    have = evaluate(loaded(), surface, {*needs(one, "barycentric"), *(quantity.name for quantity in one.provides)})
     given = arguments(one, surface, have)
     assert all(column.shape[-1] == surface.n_vertices for column in given)
     found = one.compute(*(column[..., some] for column in given))
@@ -175,15 +177,15 @@ def test_what_looks_at_one_vertex_at_a_time_says_the_same_of_some(name: str) -> 
 def test_blocks_of_vertices_do_not_change_a_bit(monkeypatch: pytest.MonkeyPatch) -> None:
     surface = meshes.zoo("cap").surface()
     names = [quantity.name for quantity in passes.quantities("vertex")]
-    at_once = evaluate(surface, names)
-    monkeypatch.setattr("curvcli.pipeline._VERTICES", 5)
-    for name, column in evaluate(surface, names).items():
+    at_once = evaluate(loaded(), surface, names)
+    monkeypatch.setattr("curvcli.curvatures.engine._VERTICES", 5)
+    for name, column in evaluate(loaded(), surface, names).items():
         np.testing.assert_array_equal(column, at_once[name], err_msg=name)
 
 
 def test_the_cell_area_is_chosen() -> None:
     surface = meshes.zoo("ellipsoid").surface()
     for area, column in (("barycentric", "A"), ("mixed", "A_mixed"), ("voronoi", "A_voronoi")):
-        found = evaluate(surface, ["K", column, "K_density"], area=area)
+        found = evaluate(loaded(), surface, ["K", column, "K_density"], area=area)
         np.testing.assert_array_equal(found["K_density"], found["K"] / found[column])
-        assert set(evaluate(surface, ["K_density"], area=area)) == {"K_density"}
+        assert set(evaluate(loaded(), surface, ["K_density"], area=area)) == {"K_density"}

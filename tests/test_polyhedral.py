@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import curvcli
+from curvcli.analysis.polyhedral import PolyhedralManifold
 from curvcli.errors import InputError
-from curvcli.polyhedral import PolyhedralManifold
 from tests.meshes import Mesh, zoo
 from tests.simplicial import (
     Floats,

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.checks import rules
-from curvcli.declare import passes
+from curvcli.curvatures.registry import passes
 from curvcli.errors import InputError, UsageError
 from tests import meshes, strategies
 from tests.meshes import Mesh, of_sample

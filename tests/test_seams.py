@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.seams import near_seam, way_to_close
+from curvcli.mesh.seams import near_seam, way_to_close
 from tests import meshes
 from tests.cli.program import curvcli as program
 from tests.meshes import Mesh, mesh, of_sample

@@ -255,7 +255,7 @@ def test_against_brute_force(given: Mesh) -> None:
 
 
 def test_of_one_patch_nothing_is_asked() -> None:
-    with mock.patch("curvcli.solids.nesting.nest", side_effect=AssertionError):
+    with mock.patch("curvcli.mesh.solids.nesting.nest", side_effect=AssertionError):
         assert curvcli.analyze((BALL.points, BALL.faces), orient="outward").notices == []
 
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import curvcli
+from curvcli.analysis.maps import SurfaceMap
+from curvcli.analysis.texture import TextureMap
 from curvcli.errors import InputError
-from curvcli.loading.surfaces import load
-from curvcli.maps import SurfaceMap
-from curvcli.texture import TextureMap
+from curvcli.loading.load import load
 from tests.meshes import Mesh, grid
 
 N, M = 12, 5

@@ -7,7 +7,7 @@ import pytest
 
 import curvcli
 from curvcli.samples import get
-from curvcli.threads import another_thread, each, for_each
+from curvcli.support.blocks import another_thread, each, for_each
 from tests import meshes
 
 NAMES = ("K_plus", "K_abs", "theta", "edge_H_vec", "beta", "willmore_conformal", "dir_1", "dir_2")

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from curvcli.analysis.polyhedral import PolyhedralManifold
 from curvcli.errors import UsageError
-from curvcli.polyhedral import PolyhedralManifold
 from tests.meshes import cap, fan, of_sample
 from tests.simplicial import cross_polytope
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import curvcli
+from curvcli.mesh.walls import facing_pairs
 from curvcli.samples.assembled import boundary
-from curvcli.walls import facing_pairs
 from tests import meshes
 from tests.check.gates import judged, outcome
 from tests.meshes import Mesh, mesh

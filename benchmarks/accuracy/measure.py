@@ -12,8 +12,8 @@ import numpy as np
 
 import curvcli
 from benchmarks.validation.surfaces import Floats, Mesh
-from curvcli.accuracy import ErrorNorms, error_norms
-from curvcli.neighbourhoods import mean_edge_length
+from curvcli.mesh.neighbourhoods import mean_edge_length
+from curvcli.report.compare.exact import ErrorNorms, error_norms
 
 from .cases import Case
 from .peers import PEERS

@@ -7,8 +7,8 @@ import numpy as np
 
 import curvcli
 from benchmarks.validation.surfaces import SURFACES, Floats, Mesh
-from curvcli.accuracy import error_norms
-from curvcli.settings import DEFAULT_SCALE
+from curvcli.mesh.scale import DEFAULT_SCALE
+from curvcli.report.compare.exact import error_norms
 
 CHOSEN = ("sphere", "torus", "ellipsoid")
 

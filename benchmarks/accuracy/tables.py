@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from curvcli.accuracy import ErrorNorms
+from curvcli.report.compare.exact import ErrorNorms
 
 from .cases import Case
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from tests import exact_values, meshes
 
 from .. import peers

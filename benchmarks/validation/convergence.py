@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
-from curvcli.declare import Quantity
+from curvcli.api import Analysis
+from curvcli.curvatures.quantity import Quantity
 
 from .. import peers
 from .surfaces import SURFACES, Mesh

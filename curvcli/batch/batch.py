@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import msgspec
 
 from .._version import __version__
-from ..exits import FAILED_CHECK, INTERNAL, OK, OUTPUT
-from ..printable import shown
+from ..errors import FAILED_CHECK, INTERNAL, OK, OUTPUT
+from ..support.words import shown
+from .locations import hash_of, is_url, length_of, read_url
 from .manifest import Manifest
 from .model import Engine, Item, Row, Settings
-from .places import hash_of, is_url, length_of, read_url
 from .summary import write_summary
 
 _WRITTEN = ("ok", "failed_checks")

@@ -10,7 +10,7 @@ from types import TracebackType
 import msgspec
 
 from ..errors import OutputError
-from ..printable import shown
+from ..support.words import shown
 from .model import MANIFEST as NAME
 from .model import Row
 

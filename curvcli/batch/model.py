@@ -10,8 +10,8 @@ from typing import Any, Literal
 import msgspec
 
 from .._version import __version__
-from ..output.write import Appearance
-from ..report.configuration import Configuration
+from ..analysis.configuration import Configuration
+from ..output.appearance import Appearance
 
 # What the batch itself writes into its folder.
 MANIFEST, CSV, PARQUET = OWN = ("manifest.jsonl", "summary.csv", "summary.parquet")

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import signal
 
-from ..errors import InputError, OutputError, UsageError, defect
-from ..exits import INPUT, INTERNAL, OUTPUT
-from ..memory import ran_out
-from ..printable import shown
+from ..errors import INPUT, INTERNAL, OUTPUT, InputError, OutputError, UsageError, defect
+from ..support.memory import ran_out
+from ..support.words import shown
 from .model import Limits, Row, Status
 
 

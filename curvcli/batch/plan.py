@@ -8,13 +8,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import count
 
 from ..errors import NoMatchError, UsageError
-from ..nearest import suggestion
+from ..output.destinations import folded
 from ..output.formats import FORMATS, format_of
-from ..output.places import folded
-from ..printable import shown
-from ..tables import TABLES
+from ..output.tables.columns import TABLES
+from ..support.words import shown, suggestion
+from .locations import absolute, expand, is_url, listed, local, parts_of, read_url, root_of
 from .model import OWN, Item
-from .places import absolute, expand, is_url, listed, local, parts_of, read_url, root_of
 from .walk import real_path
 
 # Lives in the memory of one process: its content is handed to the others.

@@ -13,22 +13,23 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from ..analysis import Analysis, analyze
+from ..analysis.request import Request
+from ..analysis.result import Result, compute
 from ..errors import InputError, OutputError
 from ..loading.read import read_mesh_file
 from ..loading.recognise import format_of_name
-from ..loading.surfaces import from_file
-from ..memory import give_back, ran_out
+from ..mesh.polygons import from_file
 from ..output.atomic import Outputs
 from ..output.write import write_into
-from ..printable import shown
 from ..report.build import pieces
+from ..support.memory import give_back, ran_out
+from ..support.words import shown
+from .locations import hash_of, is_url, length_of, read_url
 from .model import Item, Limits, Row, Settings, Written
 from .outcome import explained
-from .places import hash_of, is_url, length_of, read_url
 
 if TYPE_CHECKING:
-    from ..surface import Surface
+    from ..mesh.surface import Surface
 
 _WORST = ("fail", "pass", "not_applicable")
 
@@ -53,7 +54,7 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
     return row, spent
 
 
-def _analysed(item: Item, settings: Settings) -> Analysis:
+def _analysed(item: Item, settings: Settings) -> Result:
     timings: dict[str, float] = {}
     with _timed(timings, "read"):
         surface = _surface(item, settings)
@@ -62,7 +63,7 @@ def _analysed(item: Item, settings: Settings) -> Analysis:
             key: getattr(settings, key)
             for key in ("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise")
         }
-        analysis = analyze(surface, settings.passes, **conventions)
+        analysis = compute(surface, Request(passes=settings.passes, **conventions), Result)
     with _timed(timings, "check"):
         _ = analysis.checks
     analysis.timings |= timings
@@ -86,7 +87,7 @@ def _surface(item: Item, settings: Settings) -> Surface:
         raise
 
 
-def _write(analysis: Analysis, item: Item, settings: Settings) -> None:
+def _write(analysis: Result, item: Item, settings: Settings) -> None:
     paths = [path for kind, path in item.outputs if not kind]
     tables = [(kind, path) for kind, path in item.outputs if kind]
     for folder in {os.path.dirname(path) for _, path in item.outputs}:
@@ -119,7 +120,7 @@ def _make(folder: str) -> None:
         raise OutputError(f"{shown(folder)}: cannot be made: {error.strerror or error}") from error
 
 
-def _row(item: Item, analysis: Analysis) -> Row:
+def _row(item: Item, analysis: Result) -> Row:
     whole = pieces(analysis, analysis.surface.whole)[0]
     checks: dict[str, Any] = {}
     for check in analysis.checks:

@@ -8,11 +8,11 @@ from typing import IO, Any, cast, get_type_hints
 
 import polars as pl
 
-from ..forks import require_threads
-from ..memory import require_polars
 from ..output.atomic import Outputs
-from ..printable import in_cell
 from ..report.model import Topology
+from ..support.forks import require_threads
+from ..support.memory import require_polars
+from ..support.words import in_cell
 from .model import CSV, PARQUET, Row
 
 

@@ -28,8 +28,8 @@ def main() -> None:
     todo: SimpleQueue[Task] = SimpleQueue()
     threading.Thread(target=_listen, args=(tasks, todo), daemon=True).start()
 
-    from ..memory import bound
-    from ..pipeline import load_passes
+    from ..curvatures.catalogue import load_passes
+    from ..support.memory import bound
     from .run import run
 
     # Here, so that the first mesh is not charged with it.

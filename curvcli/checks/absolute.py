@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON
-from ..census import census, classify
-from ..declare import Column
-from ..groups import Groups
-from ..surface import Surface
+from ..mesh.counts import census, classify
+from ..mesh.groups import Groups
+from ..mesh.surface import Surface
+from ..mesh.triangles import EPSILON
+from ..support.arrays import Column
 from .base import Outcome, check, exclude_null
 
 

@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from ..blocks import EPSILON, cross, dot
-from ..curvatures.mean import conormals
-from ..declare import Column, VectorColumn
-from ..groups import Groups, Segments
-from ..surface import Surface
-from ..topology import Index, ends_of
+from ..mesh.conormals import conormals
+from ..mesh.groups import Groups, Segments
+from ..mesh.surface import Surface
+from ..mesh.topology import Index, ends_of
+from ..mesh.triangles import EPSILON, cross, dot
+from ..support.arrays import Column, VectorColumn
 from .base import Floats, Outcome, check, exclude_null, rounding
 
 

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON, NO_AREA
-from ..finite import or_none
-from ..groups import Groups
+from ..mesh.groups import Groups
+from ..mesh.triangles import EPSILON, NO_AREA
+from ..support.arrays import or_none
 
 if TYPE_CHECKING:
-    from ..surface import Surface
+    from ..mesh.surface import Surface
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON, dot
-from ..declare import Column, Flags, VectorColumn
-from ..groups import Groups
-from ..surface import Surface
+from ..mesh.groups import Groups
+from ..mesh.surface import Surface
+from ..mesh.triangles import EPSILON, dot
+from ..support.arrays import Column, Flags, VectorColumn
 from .base import Outcome, check, exclude_null, rounding
 
 

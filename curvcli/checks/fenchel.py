@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON
 from ..curves.boundary import boundary_loops
 from ..curves.turning import Turning
-from ..groups import Groups
-from ..surface import Surface
+from ..mesh.groups import Groups
+from ..mesh.surface import Surface
+from ..mesh.triangles import EPSILON
 from .base import Outcome, check
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON, cross, dot
-from ..declare import Flags, VectorColumn
-from ..groups import Groups
-from ..plurals import counted
-from ..surface import Surface
+from ..mesh.groups import Groups
+from ..mesh.surface import Surface
+from ..mesh.triangles import EPSILON, cross, dot
+from ..support.arrays import Flags, VectorColumn
+from ..support.words import counted
 from .base import Floats, Outcome, check
 
 SAMPLES = 64

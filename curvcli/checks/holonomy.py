@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON, cross, dot
-from ..declare import Column, VectorColumn
-from ..groups import Groups
-from ..plurals import counted
-from ..slices import slices
-from ..surface import Surface
-from ..threads import for_each
-from ..topology import ends_of, find_twins, next_corner, previous_corner
+from ..mesh.groups import Groups
+from ..mesh.surface import Surface
+from ..mesh.topology import ends_of, find_twins, next_corner, previous_corner
+from ..mesh.triangles import EPSILON, cross, dot
+from ..support.arrays import Column, VectorColumn
+from ..support.blocks import for_each, slices
+from ..support.words import counted
 from .base import Outcome, check
 
 # Stars of more faces are left out: the walk takes one step per face.

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from ..errors import UsageError
-from ..nearest import suggestion
+from ..support.words import suggestion
 from .base import Check, rules
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON
-from ..census import census
-from ..declare import Column, VectorColumn
-from ..groups import Groups
-from ..surface import Surface
-from ..totals import volumes
+from ..mesh.counts import census
+from ..mesh.enclosed import volumes
+from ..mesh.groups import Groups
+from ..mesh.surface import Surface
+from ..mesh.triangles import EPSILON
+from ..support.arrays import Column, VectorColumn
 from .balance import dot_offset, moments, vector_sum
 from .base import Outcome, check, exclude_null, rounding
 

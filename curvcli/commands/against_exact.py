@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, UsageError
-from ..plurals import counted
+from ..support.words import counted
 from .sides import Read, analysed_side
 
 if TYPE_CHECKING:
@@ -37,9 +37,9 @@ def accuracy(
     """
     import numpy as np
 
-    from ..accuracy import error_norms, match
-    from ..pipeline import resolve
+    from ..curvatures.catalogue import resolve
     from ..report.accuracy import model
+    from ..report.compare.exact import error_norms, match
 
     cells = exact.cells or {}
     named = conventions["passes"] or _ESTIMATED

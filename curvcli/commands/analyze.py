@@ -9,21 +9,31 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import CurvcliError, LackingError, OutputError, UsageError
-from ..exits import FAILED_CHECK, OK, exit_code, exit_code_of_one, stops_all, worst
+from ..errors import (
+    FAILED_CHECK,
+    OK,
+    CurvcliError,
+    LackingError,
+    OutputError,
+    UsageError,
+    exit_code,
+    exit_code_of_one,
+    stops_all,
+    worst,
+)
 from ..loading.limits import parse_weld
-from ..memory import give_back, ran_out
+from ..support.memory import give_back, ran_out
 from . import options
 from .bounds import bounded
 from .configured import configuration
+from .outputs import one_stdout, stdin_once, table_option
 from .stems import stem
 from .talk import internal, say
-from .wanted import one_stdout, stdin_once, table_option
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
+    from ..analysis.result import Result
+    from ..output.appearance import Appearance
     from ..output.formats import Kind
-    from ..output.write import Appearance
 
 
 @click.command("analyze", short_help="Compute curvatures: tables, coloured meshes, the report.")
@@ -102,8 +112,8 @@ class Run:
         **conventions: Any,
     ) -> None:
         from ..output.formats import format_of
+        from ..output.tables.columns import TABLES
         from ..output.write import check_appearance
-        from ..tables import TABLES
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
         self.weld, self.configuration = parse_weld(weld), configuration()
@@ -167,12 +177,13 @@ class Run:
         analysis = self.one(mesh, paths, tables, outputs)
         return self.tell(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
 
-    def one(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Analysis:
+    def one(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Result:
         """Load, compute, write."""
-        from ..analysis import analyze
-        from ..loading.surfaces import load
+        from ..analysis.request import Request
+        from ..analysis.result import Result, compute
+        from ..loading.load import load
         from ..output.write import write_into
-        from ..report.words import shell_quoted
+        from ..report.phrases import shell_quoted
         from .progress import phase
 
         with phase(f"reading {mesh}", self.quiet) as reading:
@@ -180,7 +191,7 @@ class Run:
             asked = {key: self.conventions[key] for key in ("orient", "normals")}
             surface = load(source, weld=self.weld, **asked, **self.limits)
         with phase(f"computing {mesh}", self.quiet) as computing:
-            analysis = analyze(surface, self.passes, weld=self.weld, **self.conventions)
+            analysis = compute(surface, Request(passes=self.passes, weld=self.weld, **self.conventions), Result)
         analysis.configuration = self.configuration
         analysis.timings |= {"read": reading.seconds, "compute": computing.seconds}
 
@@ -225,19 +236,20 @@ class Run:
         if not self.quiet:
             say(line)
 
-    def tell(self, analysis: Analysis) -> Any:
+    def tell(self, analysis: Result) -> Any:
         """What goes to stdout of one analysis; the report where it is wanted later."""
         if self.as_json:
             from ..report.build import model
 
             return model(analysis)
         if self.get:
+            from ..report.build import build
             from ..report.lookup import look_up
 
-            report = analysis.report()
+            report = build(analysis)
             click.echo("\n".join([look_up(report, key) for key in self.get]))
         elif not self.to_stdout and not self.quiet:
-            from ..report.text import show
+            from ..report.terminal.summary import show
 
             show(analysis, self.verbose)
         return None

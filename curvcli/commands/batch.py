@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import UsageError
-from ..exits import worst
+from ..errors import UsageError, worst
 from ..loading.limits import parse_weld
-from ..plurals import counted
+from ..support.words import counted
 from . import options
 from .configured import configuration
 from .talk import say
@@ -144,7 +143,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
     """
     from ..batch.model import Settings
     from ..output.write import check_appearance
-    from ..report.words import shell_quoted
+    from ..report.phrases import shell_quoted
 
     names, at_scale = options.chosen(passes, conventions)
     if any(one.startswith("regions.") for one in save) and conventions["regions"] is None:
@@ -193,7 +192,7 @@ def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> No
         return
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    from ..report.console import Console
+    from ..report.terminal.console import Console
 
     columns = (
         *(TextColumn("meshes"), BarColumn(), MofNCompleteColumn()),
@@ -216,8 +215,8 @@ def _tell(batch: Batch, begun: int) -> None:
     from rich import box
     from rich.table import Table
 
-    from ..report.configuration import configured
-    from ..report.console import Console, escape, show_configuration
+    from ..analysis.configuration import configured
+    from ..report.terminal.console import Console, escape, show_configuration
 
     counts = Counter((row.status, row.exit_code) for row in batch.rows)
     table = Table(box=box.SIMPLE_HEAD)

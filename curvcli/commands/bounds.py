@@ -12,10 +12,9 @@ from typing import Any, NoReturn
 
 import click
 
-from ..errors import InputError, UsageError
-from ..exits import INTERNAL
-from ..memory import bound
-from ..sinks import wait_for
+from ..errors import INTERNAL, InputError, UsageError
+from ..support.memory import bound
+from ..support.sinks import wait_for
 from . import options, signals
 from .talk import say
 

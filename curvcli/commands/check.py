@@ -9,18 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import CurvcliError, LackingError
-from ..exits import exit_code, exit_code_of_one, stops_all, worst
+from ..errors import CurvcliError, LackingError, exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
-from ..memory import give_back, ran_out
+from ..support.memory import give_back, ran_out
 from . import options
 from .bounds import bounded
 from .configured import configuration
+from .outputs import stdin_once
 from .talk import internal, say
-from .wanted import stdin_once
 
 if TYPE_CHECKING:
-    from ..report.check import CheckedMesh, CheckReport
+    from ..report.check.model import CheckedMesh, CheckReport
 
 FORMATS = ("text", "json", "junit", "sarif", "github")
 
@@ -105,8 +104,8 @@ class Run:
         max_bytes: int | None,
         **conventions: Any,
     ) -> None:
-        from ..gate import plan
-        from ..settings import parse_scales
+        from ..mesh.scale import parse_scales
+        from ..report.check.judge import plan
 
         self.meshes, self.conventions = meshes, conventions
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
@@ -119,7 +118,7 @@ class Run:
     def all(self) -> int:
         """Check every mesh, write the report; the exit code."""
         from ..output.atomic import Outputs
-        from ..report.check import report_of
+        from ..report.check.model import report_of
 
         with Outputs([] if self.output == "-" else [self.output], self.force) as outputs:
             found = [self.one(mesh) for mesh in self.meshes]
@@ -135,7 +134,7 @@ class Run:
 
     def one(self, mesh: str) -> CheckedMesh:
         """What came of one mesh; one that cannot be checked is told on stderr at once."""
-        from ..report.check import failed_input
+        from ..report.check.model import failed_input
 
         give_back()  # of the mesh before
         try:
@@ -156,9 +155,10 @@ class Run:
 
     def judged(self, mesh: str) -> CheckedMesh:
         """Load, compute, judge."""
-        from ..analysis import analyze
-        from ..gate import judge
-        from ..loading.surfaces import load
+        from ..analysis.request import Request
+        from ..analysis.result import Result, compute
+        from ..loading.load import load
+        from ..report.check.judge import judge
         from .progress import phase
 
         with phase(f"reading {mesh}", self.quiet):
@@ -166,13 +166,13 @@ class Run:
             asked = {key: self.conventions[key] for key in ("orient", "normals")}
             surface = load(source, weld=self.weld, **asked, **self.limits)
         with phase(f"checking {mesh}", self.quiet):
-            analysis = analyze(
-                surface,
-                self.plan.passes or ["topology"],
+            request = Request(
+                passes=self.plan.passes or ["topology"],
                 weld=self.weld,
                 checks=self.plan.identities,
                 **self.conventions,
             )
+            analysis = compute(surface, request, Result)
             return judge(analysis, self.plan, mesh)
 
     def show(self, report: CheckReport) -> None:
@@ -180,7 +180,7 @@ class Run:
         if self.format != "text":
             sys.stdout.buffer.write(self.written(report))
         elif not self.quiet and any(mesh.status != "error" for mesh in report.meshes):
-            from ..report.check_text import show
+            from ..report.terminal.check import show
 
             show(report, self.verbose)
 
@@ -190,7 +190,7 @@ class Run:
 
     def tell(self, report: CheckReport) -> None:
         """What failed, and the warnings, on stderr, while the report is in a file."""
-        from ..report.check_lines import all_failures, warning, warnings
+        from ..report.check.lines import all_failures, warning, warnings
 
         if self.quiet:
             return
@@ -209,15 +209,15 @@ def _writer(report_format: str, verbose: int) -> Callable[[CheckReport], bytes]:
     """The function that writes a format."""
     match report_format:
         case "json":
-            from ..report.check import write_json as writer
+            from ..report.check.model import write_json as writer
         case "junit":
-            from ..report.junit import write_junit as writer
+            from ..report.check.junit import write_junit as writer
         case "sarif":
-            from ..report.sarif import write_sarif as writer
+            from ..report.check.sarif import write_sarif as writer
         case "github":
-            from ..report.github import write_github as writer
+            from ..report.check.github import write_github as writer
         case _:
-            from ..report.check_text import write_text
+            from ..report.terminal.check import write_text
 
             return lambda report: write_text(report, verbose)
     return writer

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from ..exits import FAILED_CHECK, OK
+from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
 from .bounds import bounded
 from .configured import configuration
-from .wanted import one_stdout, tables_and_reports, tell
+from .outputs import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
-    from ..maps import SurfaceMap
+    from ..analysis.maps import SurfaceMap
 
 TABLES = ("vertices", "faces")
 # B of --map: the texture coordinates of A.
@@ -154,7 +154,7 @@ def compare_map(
 ) -> int:
     """A → B as a map: options are checked, both surfaces read, the map measured and told; the exit code."""
     from ..output.atomic import Outputs
-    from ..output.tables import parse_precision
+    from ..output.tables.write import parse_precision
     from ..report.maps import build, show
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
@@ -174,9 +174,9 @@ def compare_map(
 
 
 def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]) -> SurfaceMap:
-    from ..loading.surfaces import load
-    from ..maps import SurfaceMap
-    from ..texture import TextureMap
+    from ..analysis.maps import SurfaceMap
+    from ..analysis.texture import TextureMap
+    from ..loading.load import load
     from .progress import phase
 
     texture, surfaces = b == TEXTURE, []
@@ -191,7 +191,7 @@ def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]
 
 
 def _write(stream: Any, found: SurfaceMap, kind: str, suffix: str, precision: str) -> None:
-    from ..output.tables import write_table
+    from ..output.tables.write import write_table
     from ..report.maps import build
     from ..report.model import encode
 

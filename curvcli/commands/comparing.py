@@ -6,17 +6,16 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..differences import Difference, Tolerance, compare_reports, selector
-from ..errors import UsageError
-from ..exits import FAILED_CHECK, OK
+from ..errors import FAILED_CHECK, OK, UsageError
 from ..loading.limits import parse_weld
+from ..report.compare.values import Difference, Tolerance, compare_reports, selector
 from .against_exact import accuracy, is_exact
+from .outputs import one_stdout, tell
 from .sides import Read, both_sides, kind_of, stored_side
-from .wanted import one_stdout, tell
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
-    from ..report.differences import Comparison
+    from ..report.compare.model import Comparison
 
 
 def compare(
@@ -46,12 +45,12 @@ def compare(
     """The exit code: 1 if anything differs. given: the conventions that stand whatever a stored side was made with."""
     import msgspec
 
+    from ..analysis.configuration import configured
     from ..output.atomic import Outputs
     from ..output.formats import format_of
-    from ..output.tables import parse_precision, write_table
+    from ..output.tables.write import parse_precision, write_table
     from ..report import accuracy as errors
-    from ..report import differences
-    from ..report.configuration import configured
+    from ..report.compare import model as differences
     from ..report.model import encode
     from .configured import configuration
 
@@ -87,8 +86,8 @@ def compare(
 def _compare(
     sides: tuple[Read, Read], tolerance: Tolerance, only: tuple[str, ...], ignore: tuple[str, ...], common: bool
 ) -> Comparison:
-    from ..cell_differences import MovedColumn, compare_cells
-    from ..report.differences import model
+    from ..report.compare.cells import MovedColumn, compare_cells
+    from ..report.compare.model import model
 
     a, b = sides
     wanted = selector(only, ignore)

@@ -113,8 +113,8 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
 
     Errors: UsageError that names file and key.
     """
-    from ..nearest import suggestion
-    from .main import COMMANDS
+    from ..support.words import suggestion
+    from .names import COMMANDS
 
     command = find(name)
     if command is None:

@@ -12,7 +12,7 @@ from .config import META, heading
 from .talk import say
 
 if TYPE_CHECKING:
-    from ..report.configuration import Configuration
+    from ..analysis.configuration import Configuration
 
 # Options on which no verdict depends, by the names of their parameters; every other one is named in the verdict.
 _HARMLESS = {
@@ -59,6 +59,6 @@ def configuration(context: click.Context | None = None) -> Configuration | None:
         sets[key.replace("_", "-")] = value
     if not sets:
         return None
-    from ..report.configuration import Configuration
+    from ..analysis.configuration import Configuration
 
     return Configuration(path, sets)

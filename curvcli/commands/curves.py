@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..exits import FAILED_CHECK, OK
+from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
 from .bounds import bounded
-from .wanted import one_stdout, tables_and_reports, tell
+from .outputs import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
     from ..curves.measure import CurveMeasures
@@ -97,9 +97,9 @@ def measure(
     """Check the options, read the file, measure its curves, write and tell; the exit code."""
     import msgspec
 
+    from ..analysis.configuration import configured
     from ..output.atomic import Outputs
-    from ..output.tables import parse_precision
-    from ..report.configuration import configured
+    from ..output.tables.write import parse_precision
     from .configured import configuration
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
@@ -143,7 +143,7 @@ def _report(measures: CurveMeasures, weld: str | float, unit: str | None) -> Cur
 
 
 def _show(report: CurveReport, verbose: int) -> None:
-    from ..report.curves_text import show
+    from ..report.terminal.curves import show
 
     show(report, verbose)
 
@@ -156,7 +156,7 @@ def _write(stream: Any, measures: CurveMeasures, report: CurveReport, kind: str,
 
         stream.write(encode(msgspec.to_builtins(report)))
     else:
-        from ..output.tables import write_table
+        from ..output.tables.write import write_table
 
         tables = {"curves": lambda: measures.totals, "links": measures.links_table, "vertices": measures.points}
         write_table(stream, tables[kind](), suffix, precision=precision)

@@ -48,8 +48,9 @@ def of_command(name: str, topics: dict[str, Topic]) -> None:
 
     Errors: click.UsageError for what is neither a topic nor a command, with the nearest.
     """
-    from ..nearest import suggestion
-    from .main import COMMANDS, cli
+    from ..support.words import suggestion
+    from .main import cli
+    from .names import COMMANDS
 
     context = click.get_current_context().find_root()
     found = cli.get_command(context, name)

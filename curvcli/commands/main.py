@@ -12,24 +12,27 @@ from typing import Any, NoReturn
 import click
 
 from .._version import __version__
-from ..errors import CurvcliError, InputError, UsageError
-from ..exits import FAILED_CHECK, INPUT, INTERNAL, INTERRUPTED, OK, USAGE, exit_code
-from ..memory import NUMPY, is_bounded, ran_out, require
+from ..errors import (
+    FAILED_CHECK,
+    INPUT,
+    INTERNAL,
+    INTERRUPTED,
+    OK,
+    USAGE,
+    CurvcliError,
+    InputError,
+    UsageError,
+    exit_code,
+)
+from ..support.memory import NUMPY, is_bounded, ran_out, require
 from .allocation import keep_memory
 from .config import META, configure
 from .configured import blamed
 from .deferred import defer_imports
+from .names import COMMANDS, COMPLETE, UNCONFIGURED
 from .signals import Ending, Handler
 from .streams import complete, settle
 from .talk import internal, say
-
-COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample", "help", "completion")
-
-# These tell and set up; no configuration concerns them, and a broken one does not stop them.
-UNCONFIGURED = ("help", "completion")
-
-# With this variable set the program completes a line of the shell; see `curvcli completion`.
-COMPLETE = "_CURVCLI_COMPLETE"
 
 
 @contextmanager
@@ -79,7 +82,11 @@ class LazyGroup(click.Group):
         if cmd_name not in COMMANDS:
             return None
         found: click.Command = import_module(f"curvcli.commands.{cmd_name}").command
-        return import_module("curvcli.commands.completing").completing(found) if ctx.resilient_parsing else found
+        return (
+            import_module("curvcli.commands.completion.candidates").completing(found)
+            if ctx.resilient_parsing
+            else found
+        )
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -87,7 +94,7 @@ class LazyGroup(click.Group):
         """Name the nearest commands when there is no such command."""
         name = args[0] if args else ""
         if name and not name.startswith("-") and name not in COMMANDS:
-            from ..nearest import suggestion
+            from ..support.words import suggestion
 
             way_out = suggestion(name, COMMANDS, "`curvcli --help` lists them")
             raise click.UsageError(f"no such command {name!r}{way_out}", ctx)
@@ -140,7 +147,7 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
         if heard:
             raise KeyboardInterrupt
         if COMPLETE in os.environ:
-            import_module("curvcli.commands.scripts")
+            import_module("curvcli.commands.completion.scripts")
         result = cli.main(complete_var=COMPLETE, standalone_mode=False)
         code = result if isinstance(result, int) else OK
         sys.stdout.flush()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from ..output.write import Appearance
+    from ..output.appearance import Appearance
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -220,8 +220,8 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
 
     Errors: UsageError for a size that is none.
     """
-    from ..output.look import Look, parse_size
-    from ..output.write import Appearance
+    from ..output.appearance import Appearance
+    from ..output.pictures.framing import Look, parse_size
 
     names = (settings.pop("color_by") or "").split(",")
     columns = tuple(dict.fromkeys(name.strip() for name in names if name.strip()))
@@ -236,8 +236,8 @@ def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str]
 
     Errors: UsageError for an unknown name or a scale that is none.
     """
-    from ..pipeline import at_scales, defaults, resolve
-    from ..settings import DEFAULTS, Settings, parse_scales
+    from ..curvatures.catalogue import at_scales, defaults, resolve
+    from ..mesh.scale import DEFAULTS, Settings, parse_scales
 
     scales = parse_scales(settings["rings"], settings["radius"])
     names = resolve(passes or defaults(bool(scales), settings.get("noise") is not None))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ..printable import shown
+from ..support.words import shown
 from . import options
 
 

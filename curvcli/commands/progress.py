@@ -25,7 +25,7 @@ def phase(name: str, quiet: bool) -> Iterator[Phase]:
         if quiet or not sys.stderr.isatty():
             yield timed
         else:
-            from ..report.console import Console, escape
+            from ..report.terminal.console import Console, escape
 
             with Console(stderr=True).status(escape(name)):
                 yield timed

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from . import options
+from .outputs import one_stdout
 from .talk import say
-from .wanted import one_stdout
 
 if TYPE_CHECKING:
     from ..output.formats import Kind
@@ -55,7 +55,7 @@ def command(
       curvcli sample
       curvcli sample torus --set radius=3 --size 10000 -o torus.ply -o exact.csv
     """
-    from ..report.samples import describe, listing
+    from ..report.terminal.samples import describe, listing
     from ..samples import get
 
     one_stdout(outputs, False, (), stream_format)
@@ -114,10 +114,10 @@ def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool, quiet: b
     import numpy as np
 
     from ..output.formats import suffixes
-    from ..output.look import require_vtk
-    from ..output.meshes import write_mesh
-    from ..output.stl import write_stl_text
-    from ..output.tables import write_table
+    from ..output.meshes.stl import write_stl_text
+    from ..output.meshes.write import write_mesh
+    from ..output.pictures.framing import require_vtk
+    from ..output.tables.write import write_table
 
     if suffix in (".vtp", ".vtu"):
         require_vtk()

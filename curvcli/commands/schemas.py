@@ -1,6 +1,7 @@
 """The JSON Schemas of everything that is written as JSON; `python -m curvcli.commands.schemas` writes the files again.
 
-The files in `curvcli/schemas` leave the names of columns open, for plug-ins bring their own; `--schema` prints them.
+The files in `curvcli/commands/data/schemas` leave the names of columns open: plug-ins add their own. `--schema` prints
+the names.
 """
 
 from __future__ import annotations
@@ -17,18 +18,18 @@ import msgspec
 
 from .._version import __version__
 from ..batch.model import Row
-from ..printable import in_json
 from ..report.accuracy import Accuracy
-from ..report.check import CheckReport
+from ..report.check.model import CheckReport
+from ..report.compare.model import Comparison
 from ..report.curves import CurveReport
-from ..report.differences import Comparison
 from ..report.maps import MapReport
 from ..report.model import Report, encode
 from ..report.model import schema as report_schema
 from ..report.quantities import Facts
+from ..support.words import in_json
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-FOLDER = Path(__file__).parent.parent / "schemas"
+FOLDER = Path(__file__).parent / "data" / "schemas"
 
 
 @dataclass(frozen=True)

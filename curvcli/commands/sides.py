@@ -13,8 +13,8 @@ from ..loading.limits import parse_weld
 from .progress import phase
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
-    from ..report.differences import Side
+    from ..analysis.result import Result
+    from ..report.compare.model import Side
 
 
 @dataclass
@@ -47,7 +47,7 @@ def both_sides(
 
 def kind_of(path: str) -> str:
     """`mesh`, `report` or `table`, by the suffix."""
-    from ..loading.stored import SUFFIXES
+    from ..loading.tables import SUFFIXES
 
     suffix = os.path.splitext(path)[1].lower()
     return "report" if suffix == ".json" else "table" if suffix in SUFFIXES else "mesh"
@@ -55,9 +55,9 @@ def kind_of(path: str) -> str:
 
 def stored_side(path: str, max_bytes: int | None) -> Read:
     """A report or a table that was written before."""
-    from ..loading.stored import read_stored_table
-    from ..report.differences import Side
-    from ..report.stored import read_report
+    from ..loading.tables import read_stored_table
+    from ..report.compare.model import Side
+    from ..report.compare.stored import read_report
 
     if kind_of(path) == "report":
         report = read_report(path, max_bytes=max_bytes)
@@ -67,9 +67,9 @@ def stored_side(path: str, max_bytes: int | None) -> Read:
 
 def _made_with(side: Read) -> dict[str, Any]:
     """The passes and conventions that make a mesh's report or table comparable with this one."""
-    from ..declare import passes
-    from ..pipeline import load_passes
-    from ..settings import options_of
+    from ..curvatures.catalogue import load_passes
+    from ..curvatures.registry import passes
+    from ..mesh.scale import options_of
 
     load_passes()
     columns = {column: q.name for q in passes.quantities("vertex") for column in q.columns}
@@ -97,12 +97,14 @@ def _made_with(side: Read) -> dict[str, Any]:
 
 def analysed_side(
     path: str, conventions: Mapping[str, Any], limits: Mapping[str, Any], quiet: bool
-) -> tuple[Read, Analysis]:
+) -> tuple[Read, Result]:
     """A mesh with its report and its columns as a stored table would have them."""
-    from ..analysis import analyze
-    from ..loading.surfaces import load
-    from ..report.differences import Side
-    from ..tables import vertex_table
+    from ..analysis.request import Request
+    from ..analysis.result import Result, compute
+    from ..loading.load import load
+    from ..output.tables.columns import vertex_table
+    from ..report.build import build
+    from ..report.compare.model import Side
 
     settings = dict(conventions)
     names = settings.pop("passes")
@@ -113,8 +115,8 @@ def analysed_side(
         asked = {key: settings[key] for key in ("weld", "orient", "normals") if key in settings}
         surface = load(source, **asked, **limits)
     with phase(f"computing {path}", quiet):
-        analysis = analyze(surface, names or ("core",), **settings)
-        report = analysis.report()
+        analysis = compute(surface, Request(passes=names or ("core",), **settings), Result)
+        report = build(analysis)
     sha256 = surface.file.sha256 if surface.file is not None else None
     cells = {name: _plain(column) for name, column in vertex_table(analysis).items() if name != "vertex"}
     return Read(Side(path, "mesh", sha256), report, cells), analysis
@@ -124,7 +126,7 @@ def _check_suffix(path: str) -> None:
     """Errors: InputError for a suffix that neither meshes nor what else is compared have, with all of them."""
     from ..loading.elsewhere import is_url
     from ..loading.recognise import format_of_name
-    from ..loading.stored import SUFFIXES
+    from ..loading.tables import SUFFIXES
 
     if is_url(path) or os.path.isdir(path):
         return  # reading it says what does
@@ -139,7 +141,7 @@ def _plain(column: Any) -> Any:
     """A column of a table as floats with NaN or words with None for null, as a stored table is read."""
     import numpy as np
 
-    from ..loading.model import Labels
+    from ..mesh.file import Labels
 
     if isinstance(column, Labels):
         return np.array([*column.names, None], object)[np.asarray(column.codes)]

@@ -7,14 +7,14 @@ import os
 import sys
 
 from ..errors import OutputError
-from ..sinks import Sink, Talk, whole
+from ..support.sinks import Sink, Talk, whole
 
 
 def complete() -> None:
     """Open what the parent closed, so that no other file becomes stdout by taking its number, and have all written.
 
     stdin is empty then, stderr forgets; stdout refuses, so that nobody believes to have written what is lost. From here
-    on every byte that goes to stdout or stderr passes through `curvcli.sinks`.
+    on every byte that goes to stdout or stderr passes through `curvcli.support.sinks`.
     """
     for number, name, flags in ((0, "stdin", os.O_RDONLY), (1, "stdout", os.O_RDONLY), (2, "stderr", os.O_WRONLY)):
         if getattr(sys, name) is None:

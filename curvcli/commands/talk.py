@@ -9,7 +9,7 @@ import traceback
 import click
 
 from ..errors import defect
-from ..printable import shown
+from ..support.words import shown
 
 # Letters of either end of a message that quotes something very long.
 _SHOWN = 1000

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import files
 
-from ..exits import EXIT_CODES
+from ..errors import EXIT_CODES
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class Topic:
 
 
 def _page(name: str) -> Callable[[], str]:
-    return lambda: files("curvcli").joinpath("topics", f"{name}.txt").read_text(encoding="utf-8")
+    return lambda: files("curvcli.commands").joinpath("data", "topics", f"{name}.txt").read_text(encoding="utf-8")
 
 
 def _table(title: str, rows: list[tuple[str, str]]) -> str:
@@ -55,8 +55,8 @@ def _formats() -> str:
 
 def _checks() -> str:
     from ..checks import rules
-    from ..pipeline import load_passes
-    from ..requirements import DEFAULT, kinds
+    from ..checks.requirements import DEFAULT, kinds
+    from ..curvatures.catalogue import load_passes
 
     load_passes()
     identities = [(name, " ".join(rule.statement.split("\n\n")[0].split())) for name, rule in rules.items()]
@@ -89,9 +89,7 @@ def _schemas() -> str:
     from .schemas import SCHEMAS
 
     rows = [(name, one.command) for name, one in SCHEMAS.items()]
-    note = (
-        "\nThe files come with the package, in curvcli/schemas; --schema prints them with the names of all columns.\n"
-    )
+    note = "\nThe files stand in curvcli/commands/data/schemas; --schema prints them with the names of all columns.\n"
     return _table("JSON Schemas", rows) + note
 
 

@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from ..blocks import EPSILON
-from ..cones import normal_cone_areas
-from ..declare import Column, Flags, Quantity, curvature_pass
-from ..slices import slices
-from ..surface import Surface
-from ..threads import for_each
-from ..topology import Index
+from ..mesh.surface import Surface
+from ..mesh.topology import Index
+from ..mesh.triangles import EPSILON
+from ..support.arrays import Column, Flags
+from ..support.blocks import for_each, slices
+from .kernels.normal_cones import normal_cone_areas
+from .quantity import Quantity
+from .registry import curvature_pass
 
 # Directions per block: so many that two threads rarely wait for each other at the interpreter.
 _DIRECTIONS = 131072

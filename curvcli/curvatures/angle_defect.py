@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..declare import Column, Flags, curvature_pass
-from ..surface import Surface
+from ..mesh.surface import Surface
+from ..support.arrays import Column, Flags
+from .registry import curvature_pass
 from .star import null_where
 
 

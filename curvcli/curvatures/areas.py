@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import Floats, Triangles, dot, triangles
-from ..declare import Column, curvature_pass
-from ..doubledouble import THIN_COTANGENT, corner_products
-from ..slices import slices
-from ..surface import Surface
-from ..topology import Index
+from ..mesh.surface import Surface
+from ..mesh.topology import Index
+from ..mesh.triangles import Floats, Triangles, dot, triangles
+from ..support.arrays import Column
+from ..support.blocks import slices
+from ..support.double_double import THIN_COTANGENT, corner_products
+from .registry import curvature_pass
 from .star import null_where
 
 

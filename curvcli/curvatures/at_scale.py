@@ -6,11 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..blocks import EPSILON
-from ..declare import Column, Flags, Quantity, curvature_pass
-from ..precision import last_place
-from ..surface import Surface
+from ..mesh.precision import last_place
+from ..mesh.surface import Surface
+from ..mesh.triangles import EPSILON
+from ..support.arrays import Column, Flags
 from .principal import koenderink
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where
 
 # Ends that move by ½√3 of the last place on either side of a vertex lift an edge by 2√3 of it, and κ|e|² is twice that.

@@ -6,16 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from ..blocks import Floats, dot
-from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
-from ..neighbourhoods import sums
-from ..settings import Scale
-from ..slices import slices
-from ..surface import Surface
+from ..mesh.neighbourhoods import sums
+from ..mesh.scale import Scale
+from ..mesh.surface import Surface
+from ..mesh.triangles import Floats, dot
+from ..support.arrays import Column, Flags, VectorColumn
+from ..support.blocks import slices
 from .directions import star_tensors
+from .kernels.tensor import tangential
 from .mean import pointed, with_sign
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where, ratio
-from .tensor import tangential
 
 _SHARED: dict[str, Any] = {
     "kind": "density",

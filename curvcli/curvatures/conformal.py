@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import cross, dot
-from ..declare import Column, Flags, curvature_pass
-from ..slices import slices
-from ..surface import Surface
-from ..threads import for_each
-from ..topology import previous_corner
+from ..mesh.surface import Surface
+from ..mesh.topology import previous_corner
+from ..mesh.triangles import cross, dot
+from ..support.arrays import Column, Flags
+from ..support.blocks import for_each, slices
 from .edges import EDGES_PER_BLOCK
+from .registry import curvature_pass
 from .star import null_where
 
 

@@ -7,16 +7,17 @@ from typing import Any, Literal
 import numpy as np
 from scipy.sparse import csr_array
 
-from ..blocks import EPSILON, Floats, by_corner, cross, dot
-from ..declare import Column, Quantity, VectorColumn, curvature_pass
-from ..neighbourhoods import sums
-from ..settings import Scale
-from ..slices import slices
-from ..surface import Surface
-from ..threads import for_each
-from ..topology import Index
+from ..mesh.neighbourhoods import sums
+from ..mesh.scale import Scale
+from ..mesh.surface import Surface
+from ..mesh.topology import Index
+from ..mesh.triangles import EPSILON, Floats, by_corner, cross, dot
+from ..support.arrays import Column, VectorColumn
+from ..support.blocks import for_each, slices
+from .kernels.tensor import ENTRIES, half_gap, line, tangential
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where
-from .tensor import ENTRIES, half_gap, line, tangential
 
 # Below this part of the area the normals do not belong to the faces, and what is divided by Σμ₀ means nothing.
 _ASTRAY = 0.25

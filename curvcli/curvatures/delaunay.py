@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import Floats
-from ..declare import Column, Flags, Quantity, curvature_pass
-from ..intrinsic import IntrinsicTriangulation
-from ..slices import slices
-from ..surface import Surface
-from ..topology import next_corner
+from ..mesh.surface import Surface
+from ..mesh.topology import next_corner
+from ..mesh.triangles import Floats
+from ..support.arrays import Column, Flags
+from ..support.blocks import slices
+from .kernels.intrinsic_delaunay import IntrinsicTriangulation
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where
 
 

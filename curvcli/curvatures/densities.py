@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..declare import Column, Flags, curvature_pass
+from ..support.arrays import Column, Flags
+from .registry import curvature_pass
 from .star import ratio
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON, Floats, dot, span
-from ..declare import Column, Quantity, VectorColumn, curvature_pass
-from ..slices import slices
-from ..surface import Surface
-from ..threads import for_each
+from ..mesh.surface import Surface
+from ..mesh.triangles import EPSILON, Floats, dot, span
+from ..support.arrays import Column, VectorColumn
+from ..support.blocks import for_each, slices
+from .kernels.tensor import ENTRIES, line, tangential
 from .mean import pointed
-from .tensor import ENTRIES, line, tangential
+from .quantity import Quantity
+from .registry import curvature_pass
 
 _SHARED = {
     "kind": "direction",

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cotangents import dirichlet as sweep
-from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
-from ..surface import Surface
+from ..mesh.surface import Surface
+from ..support.arrays import Column, Flags, VectorColumn
+from .kernels.cotangents import dirichlet as sweep
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where
 
 

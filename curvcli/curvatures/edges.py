@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON, cross, dot, span
-from ..declare import Column, Flags, VectorColumn, curvature_pass
-from ..slices import slices
-from ..surface import Surface
-from ..threads import for_each
-from ..topology import InnerEdges, Mask
-from .mean import conormals
+from ..mesh.conormals import conormals
+from ..mesh.surface import Surface
+from ..mesh.topology import InnerEdges, Mask
+from ..mesh.triangles import EPSILON, cross, dot, span
+from ..support.arrays import Column, Flags, VectorColumn
+from ..support.blocks import for_each, slices
+from .registry import curvature_pass
 from .star import null_where
 
 # So many that two threads rarely wait for each other at the interpreter.

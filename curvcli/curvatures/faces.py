@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import triangles
-from ..declare import Column, Flags, VectorColumn, curvature_pass
-from ..slices import slices
-from ..surface import Surface
+from ..mesh.surface import Surface
+from ..mesh.triangles import triangles
+from ..support.arrays import Column, Flags, VectorColumn
+from ..support.blocks import slices
+from .registry import curvature_pass
 
 
 @curvature_pass(on="face", vector=True, public=False, kind="direction")

@@ -7,15 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from ..blocks import Floats, dot
-from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
-from ..settings import Scale
-from ..surface import Surface
-from ..threads import for_each
-from .jets import QUADRATIC, Jets, fit
-from .moments import Moments, moments
+from ..mesh.scale import Scale
+from ..mesh.surface import Surface
+from ..mesh.triangles import Floats, dot
+from ..support.arrays import Column, Flags, VectorColumn
+from ..support.blocks import for_each
+from .kernels.jets import QUADRATIC, Jets, fit
+from .kernels.moments import Moments, moments
+from .kernels.tensor import line
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where
-from .tensor import line
 
 _SHARED: dict[str, Any] = {
     "boundary": "same, from one side; null where the neighbourhood does not determine a quadric, or is no graph over "

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import EPSILON, LOST, cross, dot, triangles
-from ..declare import Column, Flags, VectorColumn, curvature_pass
-from ..surface import Surface
-from ..topology import Index, ends_of, next_corner
+from ..mesh.conormals import conormals
+from ..mesh.surface import Surface
+from ..mesh.topology import ends_of
+from ..mesh.triangles import EPSILON, LOST, dot
+from ..support.arrays import Column, Flags, VectorColumn
+from .registry import curvature_pass
 from .star import null_where, ratio
 
 # Sums over a star are known to this part of the extents of its faces.
@@ -79,15 +81,6 @@ def H_vec(surface: Surface, star_curvature: VectorColumn) -> VectorColumn:
         for component, part in zip(vector, half, strict=True):
             np.add.at(component, end, part)
     return vector
-
-
-def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
-    """(3, n) outward unit conormals times length, η|e| = e × ν, of the given half-edges in their own faces."""
-    head = next_corner(half_edges)
-    corners = [surface.faces.ravel().take(each) for each in (half_edges, head, next_corner(head))]
-    t = triangles(surface.xyz, np.stack(corners, axis=1))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.array(cross(t.u, t.normal)) / t.twice_area
 
 
 @curvature_pass(

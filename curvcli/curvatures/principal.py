@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ..blocks import EPSILON
-from ..declare import Column, Flags, Quantity, curvature_pass
+from ..mesh.triangles import EPSILON
+from ..support.arrays import Column, Flags
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where
 
 # Rounding of an angle defect, of which the root of the radicand takes half the digits.

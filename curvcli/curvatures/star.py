@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import star_sums as sweep
-from ..declare import Column, Flags, Quantity, curvature_pass
-from ..surface import Surface
+from ..mesh.surface import Surface
+from ..support.arrays import Column, Flags
+from .kernels.star_sums import star_sums as sweep
+from .quantity import Quantity
+from .registry import curvature_pass
 
 
 def null_where(mask: Flags, values: Column) -> Column:

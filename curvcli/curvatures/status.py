@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..declare import Codes, Counts, Flags, curvature_pass
-from ..surface import STATUS, Surface
+from ..mesh.surface import STATUS, Surface
+from ..support.arrays import Codes, Counts, Flags
+from .registry import curvature_pass
 
 
 @curvature_pass(

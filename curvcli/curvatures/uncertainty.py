@@ -13,12 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import Floats, Triangles, cross, dot, triangles
-from ..declare import Column, Flags, Quantity, VectorColumn, curvature_pass
-from ..precision import precision
-from ..slices import slices
-from ..surface import Surface
-from ..topology import Index
+from ..mesh.precision import precision
+from ..mesh.surface import Surface
+from ..mesh.topology import Index
+from ..mesh.triangles import Floats, Triangles, cross, dot, triangles
+from ..support.arrays import Column, Flags, VectorColumn
+from ..support.blocks import slices
+from .quantity import Quantity
+from .registry import curvature_pass
 from .star import null_where
 
 _EDGES = 8192

@@ -9,16 +9,16 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import Floats, dot, triangles
-from ..declare import Flags, VectorColumn, curvature_pass
 from ..errors import InputError
-from ..neighbourhoods import Pattern, as_weights, neighbourhoods
-from ..settings import Scale, rings
-from ..slices import slices
-from ..surface import Surface
-from ..threads import for_each
+from ..mesh.neighbourhoods import Pattern, as_weights, neighbourhoods
+from ..mesh.scale import Scale, rings
+from ..mesh.surface import Surface
+from ..mesh.triangles import Floats, dot, triangles
+from ..support.arrays import Flags, VectorColumn
+from ..support.blocks import for_each, slices
+from .kernels.tensor import ENTRIES, WHERE, frame
+from .registry import curvature_pass
 from .star import null_where
-from .tensor import ENTRIES, WHERE, frame
 
 # Pairs of neighbours per block; temporaries stay in the second-level cache.
 _PAIRS = 16384

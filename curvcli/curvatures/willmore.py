@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import dot
-from ..declare import Column, Flags, VectorColumn, curvature_pass
+from ..mesh.triangles import dot
+from ..support.arrays import Column, Flags, VectorColumn
 from .mean import pointed
+from .registry import curvature_pass
 from .star import ratio
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
-from ..cache import cached
-from ..surface import Surface
-from ..topology import ends_of, label_graph, neighbouring_corners, next_corner
+from ..mesh.surface import Surface
+from ..mesh.topology import ends_of, label_graph, neighbouring_corners, next_corner
+from ..support.cache import cached
 from .polygon import Curves, Mask, Rows
 
 

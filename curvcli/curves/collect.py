@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import InputError, Notice
-from ..loading.model import MeshFile
-from ..loading.surfaces import from_file
-from ..loading.weld import weld_exact
-from ..plurals import agree
-from ..surface import Surface
+from ..mesh.file import MeshFile
+from ..mesh.polygons import from_file
+from ..mesh.surface import Surface
+from ..mesh.welding import weld_exact
+from ..support.words import agree
 from .boundary import Boundary, boundary_loops
 from .joined import Joined, join
 from .polygon import Curves, Rows

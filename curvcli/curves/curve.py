@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import UsageError
-from ..finite import or_none
+from ..support.arrays import or_none
 from .frames import Bishop, Frenet
 from .holonomy import normal_holonomy
 from .plane import PlaneCurves, plane_curves

@@ -7,9 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ..blocks import LOST, cross, dot, triangles
-from ..slices import slices
-from ..topology import faces_at
+from ..mesh.topology import faces_at
+from ..mesh.triangles import LOST, cross, dot, triangles
+from ..support.blocks import slices
 from .boundary import Boundary
 from .frames import unit
 from .polygon import Floats, Mask

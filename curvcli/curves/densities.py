@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..blocks import dot
+from ..mesh.triangles import dot
 from .frames import Frenet
 from .plane import PlaneCurves
 from .polygon import Curves, Floats

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..blocks import EPSILON, cross, dot
+from ..mesh.triangles import EPSILON, cross, dot
 from .polygon import Floats, Mask
 from .turning import Turning
 

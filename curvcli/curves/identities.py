@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..blocks import EPSILON
+from ..mesh.triangles import EPSILON
 from .frames import Bishop, defined_round, shortest
 from .plane import PlaneCurves
 from .polygon import Curves, Floats, Mask

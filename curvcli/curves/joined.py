@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..loading.model import Polylines
+from ..mesh.file import Polylines
 from .boundary import walk_directed
 from .polygon import Mask, Rows
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..blocks import EPSILON
 from ..errors import UsageError
+from ..mesh.triangles import EPSILON
 from .polygon import Curves, Floats, Mask, Rows
 from .writhe import MAX_EDGES, UNSURE, edge_pairs
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..blocks import cross
-from ..surface import Surface
+from ..mesh.surface import Surface
+from ..mesh.triangles import cross
 from .boundary import Boundary, boundary_loops
 from .darboux import Darboux
 from .frames import Bishop, twist, twist_error

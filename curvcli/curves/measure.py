@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import Notice
-from ..loading.model import Labels
-from ..plurals import agree
+from ..mesh.file import Labels
+from ..support.words import agree
 from .collect import CurveSet, curve_notices
 from .darboux import Darboux
 from .densities import curvature, signed_curvature, torsion_density

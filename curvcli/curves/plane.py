@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..blocks import EPSILON, cross, dot
+from ..mesh.triangles import EPSILON, cross, dot
 from .frames import unit
 from .polygon import Curves, Floats, Mask, Rows
 from .turning import Turning

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..blocks import EPSILON
+from ..mesh.triangles import EPSILON
 from .polygon import Curves, Floats, Mask
 
 # Sums and differences of unit tangents below this are rounding: the edges run on, or turn back, in one line.

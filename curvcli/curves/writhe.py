@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blocks import EPSILON
 from ..errors import UsageError
+from ..mesh.triangles import EPSILON
 from .plane import plane_curves
 from .polygon import Curves, Floats, Rows
 from .turning import Turning

@@ -13,7 +13,7 @@ import zlib
 from typing import Any, BinaryIO, NamedTuple
 
 from ..errors import InputError
-from ..sinks import wait_for
+from ..support.sinks import wait_for
 from .elsewhere import of_folder, of_missing
 
 _CHUNK = 1 << 24

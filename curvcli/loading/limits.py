@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..errors import InputError, UsageError
-from ..plurals import number_of
+from ..support.words import number_of
 
 
 def check_faces(found: int, allowed: int | None) -> None:

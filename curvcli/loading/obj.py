@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree, number_of
+from ..mesh.file import NO_POLYLINES, Labels, MeshFile, Polylines
+from ..support.words import agree, number_of
 from .limits import check_faces
-from .model import NO_POLYLINES, Labels, MeshFile, Polylines
 from .obj_lines import ObjLines, split_lines, tidy_lines
 from .obj_normals import corner_normals
 from .obj_texture import corner_texture

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree
+from ..mesh.file import MeshFile
+from ..support.words import agree
 from .limits import check_faces
-from .model import MeshFile
 from .pieces import Pieces
 from .ply_header import CORNERS, HEADER_END, TOO_SMALL, Element, Header, parse_header
 from .ply_rows import Columns, read_binary_rows

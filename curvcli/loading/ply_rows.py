@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..plurals import number_of
-from ..slices import slices
+from ..support.blocks import slices
+from ..support.words import number_of
 from .pieces import Pieces
 from .ply_header import Element, Property
 

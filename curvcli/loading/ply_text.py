@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree, number_of
+from ..support.words import agree, number_of
 from .ply_header import CORNERS, TOO_SMALL, Element, Header, Property
 from .ply_rows import Columns, empty_columns
 from .text import (

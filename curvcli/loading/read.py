@@ -13,12 +13,12 @@ from dataclasses import replace
 from typing import Any, BinaryIO, Generic, NamedTuple, TypeVar
 
 from ..errors import InputError, UsageError
-from ..memory import require_polars
-from ..printable import shown
+from ..mesh.file import MeshFile
+from ..support.memory import require_polars
+from ..support.words import shown
 from .content import DamagedError, inflate, open_regular, read_limited
 from .elsewhere import FORMATS
 from .limits import check_faces, parse_weld
-from .model import MeshFile
 from .pieces import Pieces
 from .recognise import format_of_name, recognise
 from .text import SMALL
@@ -187,7 +187,7 @@ def _parse(pieces: Pieces, kind: str, weld: str | float, max_faces: int | None, 
     """The content of a file of a known kind, equal positions merged where that is asked for."""
     import numpy as np
 
-    from .weld import welded
+    from ..mesh.welding import welded
 
     with np.errstate(invalid="ignore"):  # signalling NaNs; who uses a NaN refuses it
         return welded(_content(pieces, kind, weld, max_faces, asked), weld)

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree, number_of
-from ..slices import slices
+from ..mesh.file import MeshFile
+from ..mesh.welding import weld_exact
+from ..support.blocks import slices
+from ..support.words import agree, number_of
 from .limits import check_faces
-from .model import MeshFile
 from .pieces import Pieces
 from .stl_tokens import read_ascii_tokens
 from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy, without_comments
-from .weld import weld_exact
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..plurals import agree
+from ..support.words import agree
 from .limits import check_faces
 from .text import BLANK, NEWLINE, read_tokens, separates
 

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forks import threads_lost
-from ..memory import require_polars
-from ..slices import slices
+from ..support.blocks import slices
+from ..support.forks import threads_lost
+from ..support.memory import require_polars
 
 if TYPE_CHECKING:
     import polars as pl

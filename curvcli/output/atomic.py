@@ -15,9 +15,9 @@ from types import TracebackType
 from typing import BinaryIO
 
 from ..errors import OutputError
-from ..printable import shown
-from ..sinks import Sink, binary
-from .places import STDOUT, Place, beside, probe, resolve, same_file, stream_number
+from ..support.sinks import Sink, binary
+from ..support.words import shown
+from .destinations import STDOUT, Place, beside, probe, resolve, same_file, stream_number
 
 # What link() says where hard links are unknown or not allowed; everything else is a real failure.
 _NO_HARD_LINKS = {errno.EPERM, errno.EACCES, errno.EOPNOTSUPP, errno.ENOTSUP, errno.ENOSYS, errno.EMLINK, errno.EXDEV}

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..errors import UsageError
-from ..nearest import suggestion
-from ..printable import shown
+from ..support.words import shown, suggestion
 
 Kind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
 

@@ -4,52 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 from threading import Event
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from ..declare import Quantity, passes
 from ..errors import Notice, UsageError
-from ..memory import require_polars
-from ..nearest import suggestion
-from ..tables import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
+from ..support.memory import require_polars
+from .appearance import COLOR_BY, DEFAULT, Appearance, colored, colored_quantity, colors, panels
 from .atomic import Outputs
 from .formats import Format, format_of
-from .look import Look, check_look, import_apart, parse_view, require_pictures, require_vtk
+from .pictures.framing import check_look, import_apart, parse_view, require_pictures, require_vtk
+from .tables.columns import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
-    from .colors import ColorScale
-    from .legend import Colored
-
-# What colours a mesh when nothing is asked for: the first of these that was computed.
-_COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
-
-
-@dataclass(frozen=True)
-class Appearance:
-    """How tables, coloured meshes and pictures look.
-
-    color_by: the columns of a picture; the first of them colours a mesh. quality: whether `.ply` has that column once
-    more as `quality`, the name that MeshLab colours by.
-    """
-
-    color_by: tuple[str, ...] = ()
-    cmap: str | None = None
-    value_range: str | None = None
-    precision: str | int = "shortest"
-    quality: bool = False
-    look: Look = field(default_factory=Look)
+    from ..analysis.result import Result
+    from .pictures.colors import ColorScale
 
 
 def write_outputs(
-    analysis: Analysis,
+    analysis: Result,
     paths: Iterable[str],
     *,
     force: bool = False,
-    appearance: Appearance = Appearance(),
+    appearance: Appearance = DEFAULT,
     stream_format: str | None = None,
 ) -> list[Notice]:
     """Write the named outputs whole or not at all; `-` is stdout in `stream_format`.
@@ -63,7 +41,7 @@ def write_outputs(
 
 def write_into(
     outputs: Outputs,
-    analysis: Analysis,
+    analysis: Result,
     paths: Iterable[str],
     appearance: Appearance,
     stream_format: str | None = None,
@@ -117,7 +95,7 @@ def write_into(
 
 
 def _tables(
-    analysis: Analysis, formats: Mapping[str, Format], others: Iterable[tuple[str, str]], stream_format: str | None
+    analysis: Result, formats: Mapping[str, Format], others: Iterable[tuple[str, str]], stream_format: str | None
 ) -> Iterator[tuple[str, Table, str]]:
     """Path, columns and suffix of every table that is wanted."""
     for kind, path in others:
@@ -129,7 +107,7 @@ def _tables(
 
 
 def _write_table(outputs: Outputs, path: str, columns: Table, suffix: str, precision: str | int, stop: Event) -> None:
-    from .tables import write_table
+    from .tables.write import write_table
 
     with outputs.open(path) as stream:
         write_table(stream, columns, suffix, precision=precision, stop=stop)
@@ -145,20 +123,20 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     suffixes = set(suffixes)
     pictures = suffixes & {".png", ".hist.png"}
     if pictures:
-        panels = max(len(_panels(appearance, chosen, suffix)) for suffix in pictures)
+        panels = max(len(panels(appearance, chosen, suffix)) for suffix in pictures)
         check_look(appearance.look, panels, surface=".png" in pictures)
     if suffixes & {".vtp", ".vtu"}:
         require_vtk()
     if appearance.precision != "shortest":
-        from .tables import parse_precision
+        from .tables.write import parse_precision
 
         parse_precision(appearance.precision)
     if appearance.cmap is not None or appearance.value_range is not None:
-        from .colors import colorize
+        from .pictures.colors import colorize
 
         colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
     for name in appearance.color_by:
-        quantity = _colored_column(name, chosen)
+        quantity = colored_quantity(name, chosen)
         elsewhere = sorted(suffixes & {".ply", ".obj", ".glb", ".vtp", ".vtu", ".hist.png"})
         if quantity.on == "edge" and elsewhere:
             raise UsageError(
@@ -167,96 +145,26 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
             )
 
 
-def _columns(chosen: list[str]) -> dict[str, Quantity]:
-    """The vertex columns that were computed, each with its quantity."""
-    return {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
-
-
-def along_edges() -> dict[str, Quantity]:
-    """The numbers of edges, each with its quantity."""
-    return {column: q for q in passes.quantities("edge") for column in q.columns if not q.vector}
-
-
-def _colored_column(name: str, chosen: list[str]) -> Quantity:
-    """The quantity whose column colours the mesh, or its edges: these are computed with every table of edges."""
-    columns = _columns(chosen)
-    along = along_edges()
-    if name in along and name not in columns:
-        return along[name]
-    if name not in columns:
-        offered = _columns([quantity.name for quantity in passes.quantities("vertex")])
-        if name in offered:
-            raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
-        way_out = suggestion(name, [*offered, *along], "`curvcli passes` lists them")
-        raise UsageError(f"--color-by {name}: no such column of vertices{way_out}")
-    return columns[name]
-
-
-def colored(analysis: Analysis, name: str, appearance: Appearance) -> Colored:
-    """A column with the colours that it has in every output."""
-    from .colors import categorize, colorize
-    from .floor import edge_floor, floor
-    from .legend import Colored
-
-    quantity = _colored_column(name, analysis.chosen)
-    if quantity.on == "edge":
-        values, theta = (analysis.edges[key].astype(np.float64) for key in (name, "theta"))
-        flat = edge_floor(analysis, theta) if quantity.signed else None
-        cmap, value_range = appearance.cmap, appearance.value_range
-        scale = colorize(values, cmap=cmap, value_range=value_range, signed=quantity.signed, floor=flat)
-        return Colored(name, quantity, scale)
-    if quantity.labels:
-        return Colored(name, quantity, categorize(analysis.columns[name], quantity.labels))
-    values = np.where(analysis.surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
-    scale = colorize(
-        values,
-        cmap=appearance.cmap,
-        value_range=appearance.value_range,
-        signed=quantity.signed or quantity.vector,
-        ignore=analysis.surface.boundary,
-        floor=floor(analysis, quantity, values),
-    )
-    return Colored(name, quantity, scale)
-
-
-def colors(analysis: Analysis, appearance: Appearance) -> tuple[str, ColorScale] | None:
-    """The column that colours the surface and its colours; None when no column was computed."""
-    chosen = (
-        tuple(name for name in appearance.color_by if name in _columns(analysis.chosen))[:1]
-        or tuple(name for name in _COLOR_BY if name in analysis.chosen)[:1]
-    )
-    return (chosen[0], colored(analysis, chosen[0], appearance).scale) if chosen else None
-
-
-def _panels(appearance: Appearance, chosen: list[str], suffix: str) -> tuple[str, ...]:
-    """The columns that a picture shows: those asked for, else all numbers in histograms and one column elsewhere."""
-    if appearance.color_by:
-        return appearance.color_by
-    if suffix == ".hist.png":
-        return tuple(name for name, q in _columns(chosen).items() if not q.vector and not q.labels)
-    return tuple(name for name in (*_COLOR_BY, "status") if name in chosen)[:1]
-
-
-def _write_picture(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[str]:
+def _write_picture(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance) -> list[str]:
     """Draw the surface or the histograms; what is to be said of each column, a line each."""
-    from .legend import sentence
+    from .pictures.legend import sentence
 
     require_pictures(suffix != ".hist.png")
     # What such imports leave behind refers to the frames below it, and those here to the analysis.
     import_apart("matplotlib.figure", *(() if suffix == ".hist.png" else ("pyvista.plotting",)))
-    shown = [colored(analysis, name, appearance) for name in _panels(appearance, analysis.chosen, suffix)]
+    shown = [colored(analysis, name, appearance) for name in panels(appearance, analysis.chosen, suffix)]
     if suffix == ".hist.png":
-        from .histogram import write_histograms
+        from .pictures.histogram import write_histograms
 
         write_histograms(stream, analysis, shown, appearance.look, appearance.value_range)
     else:
-        from .picture import write_picture
+        from .pictures.picture import write_picture
 
         write_picture(stream, analysis, shown, appearance.look, appearance.value_range)
     return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in shown]
 
 
-def _write_page(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance, command: str | None) -> None:
+def _write_page(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance, command: str | None) -> None:
     """Write the report for people."""
     if suffix == ".md":
         from ..report.build import model
@@ -266,12 +174,12 @@ def _write_page(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: A
     else:
         from .html.page import page
 
-        first = appearance.color_by or tuple(name for name in _COLOR_BY if name in analysis.chosen)[:1]
+        first = appearance.color_by or tuple(name for name in COLOR_BY if name in analysis.chosen)[:1]
         stream.write(page(analysis, appearance, first, command))
 
 
-def _write_mesh(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: Appearance) -> list[Notice]:
-    from .meshes import beside_input, write_mesh
+def _write_mesh(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance) -> list[Notice]:
+    from .meshes.write import beside_input, write_mesh
 
     if suffix in (".vtp", ".vtu"):
         require_vtk()
@@ -303,7 +211,7 @@ def _write_mesh(stream: BinaryIO, analysis: Analysis, suffix: str, appearance: A
     return [*notices, *lost]
 
 
-def _comments(analysis: Analysis, painted: tuple[str, ColorScale] | None) -> list[str]:
+def _comments(analysis: Result, painted: tuple[str, ColorScale] | None) -> list[str]:
     convention = "k1 + k2" if analysis.conventions.mean == "sum" else "(k1 + k2) / 2"
     told = [f"curvcli: H = {convention}, positive where convex; NaN is undefined"]
     if painted is not None and painted[1].low is not None:

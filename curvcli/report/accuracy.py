@@ -11,11 +11,11 @@ import numpy as np
 from rich.table import Table
 
 from .._version import __version__
-from ..accuracy import ErrorNorms
-from .configuration import Configured
-from .console import escape, report_console, show_configuration
-from .differences import Side
-from .fitting import add_numbers, fitting, plain_table, roomy_table
+from ..analysis.configuration import Configured
+from .compare.exact import ErrorNorms
+from .compare.model import Side
+from .terminal.console import escape, report_console, show_configuration
+from .terminal.fitting import add_numbers, fitting, plain_table, roomy_table
 
 _NUMBERS = ("relative_l2", "linf", "rms", "bias", "relative_bias")
 
@@ -71,7 +71,7 @@ def model(
 
 def table(found: Accuracy) -> dict[str, Any]:
     """One row per column as columns of a table file."""
-    from ..loading.model import Labels
+    from ..mesh.file import Labels
 
     columns: dict[str, Any] = {}
     rows = list(found.errors.items())

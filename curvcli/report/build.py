@@ -11,14 +11,14 @@ import numpy as np
 from msgspec.structs import replace
 
 from .._version import __version__
-from ..cache import cached
-from ..census import census, classify, duplicate_faces, duplicate_vertices
-from ..declare import passes
-from ..finite import or_none
-from ..groups import Groups
-from ..surface import Surface
-from ..totals import competing_normals, constant_mean_curvature, steiner
-from .configuration import configured
+from ..analysis.configuration import configured
+from ..checks.special import competing_normals, constant_mean_curvature, steiner
+from ..curvatures.registry import passes
+from ..mesh.counts import census, classify, duplicate_faces, duplicate_vertices
+from ..mesh.groups import Groups
+from ..mesh.surface import Surface
+from ..support.arrays import or_none
+from ..support.cache import cached
 from .model import (
     CONVENTIONS,
     CheckRow,
@@ -36,16 +36,16 @@ from .model import (
 from .statistics import ColumnStatistics, statistics
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
+    from ..analysis.result import Result
 
 
-def build(analysis: Analysis) -> dict[str, Any]:
+def build(analysis: Result) -> dict[str, Any]:
     """The report as plain Python values."""
     found: dict[str, Any] = msgspec.to_builtins(model(analysis))
     return found
 
 
-def model(analysis: Analysis) -> Report:
+def model(analysis: Result) -> Report:
     """The report of an analysis."""
     surface = analysis.surface
     whole = _whole(analysis)
@@ -72,7 +72,7 @@ def model(analysis: Analysis) -> Report:
     )
 
 
-def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
+def pieces(analysis: Result, groups: Groups) -> list[Piece]:
     """Topology, totals and the rest for each group of a surface."""
     counts = _counts(analysis, groups)
     totals = {key: _plain(values) for key, values in analysis.totals_of(groups).items()}
@@ -89,12 +89,12 @@ def pieces(analysis: Analysis, groups: Groups) -> list[Piece]:
 
 
 @cached
-def _whole(analysis: Analysis) -> Piece:
+def _whole(analysis: Result) -> Piece:
     return pieces(analysis, analysis.surface.whole)[0]
 
 
 @cached
-def _components(analysis: Analysis) -> list[Piece]:
+def _components(analysis: Result) -> list[Piece]:
     """The components of a surface; a single one from the surface itself, but for the vertices that no face uses."""
     if analysis.surface.components.count == 1:
         whole = _whole(analysis)
@@ -103,12 +103,12 @@ def _components(analysis: Analysis) -> list[Piece]:
 
 
 @cached
-def _regions(analysis: Analysis) -> list[Piece]:
+def _regions(analysis: Result) -> list[Piece]:
     return [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
 
 
 @cached
-def loops(analysis: Analysis) -> list[dict[str, Any]]:
+def loops(analysis: Result) -> list[dict[str, Any]]:
     """One row per boundary loop, vectors as lists."""
     if not len(analysis.surface.boundary_half_edges):
         return []
@@ -124,7 +124,7 @@ def loops(analysis: Analysis) -> list[dict[str, Any]]:
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
-def _extras(analysis: Analysis, groups: Groups) -> dict[str, Callable[[int], Any]]:
+def _extras(analysis: Result, groups: Groups) -> dict[str, Callable[[int], Any]]:
     """What only some passes allow: for each key a function from the group to its value."""
     surface, columns = analysis.surface, analysis.columns
     factor = 0.5 if analysis.conventions.mean == "average" else 1.0
@@ -145,7 +145,7 @@ def _extras(analysis: Analysis, groups: Groups) -> dict[str, Callable[[int], Any
     return found
 
 
-def _counts(analysis: Analysis, groups: Groups) -> dict[str, list[Any]]:
+def _counts(analysis: Result, groups: Groups) -> dict[str, list[Any]]:
     """The columns of the topology table, one entry per group."""
     surface = analysis.surface
     kinds = classify(surface, groups)
@@ -158,7 +158,7 @@ def _counts(analysis: Analysis, groups: Groups) -> dict[str, list[Any]]:
     return {key: counted[key] for key in Topology.__struct_fields__}
 
 
-def _defects(analysis: Analysis, groups: Groups) -> dict[str, list[int]]:
+def _defects(analysis: Result, groups: Groups) -> dict[str, list[int]]:
     """Counts per group that need more than the edges."""
     surface = analysis.surface
     faces, vertices = np.zeros(surface.n_faces, bool), np.zeros(surface.n_vertices, bool)
@@ -180,7 +180,7 @@ def merged(surface: Surface) -> int:
 
 
 @cached
-def _columns(analysis: Analysis) -> dict[str, ColumnStatistics]:
+def _columns(analysis: Result) -> dict[str, ColumnStatistics]:
     surface = analysis.surface
     area = analysis.columns["star_area"]
     found: dict[str, ColumnStatistics] = {}

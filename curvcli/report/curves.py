@@ -8,11 +8,11 @@ import msgspec
 import numpy as np
 
 from .._version import __version__
+from ..analysis.configuration import Configured
 from ..curves.identities import Identity
 from ..curves.measure import CurveMeasures
-from ..finite import or_none
-from ..loading.model import Labels
-from .configuration import Configured
+from ..mesh.file import Labels
+from ..support.arrays import or_none
 from .model import CheckRow, Input, Remark, input_of, remarks, vector
 
 Vector = list[float | None] | None

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import LackingError
-from ..nearest import suggestion
-from ..printable import in_json, shown
+from ..support.words import in_json, shown, suggestion
 from .model import Piece, one_line
 from .quantities import public, smallest_preset
 

@@ -10,14 +10,14 @@ import numpy as np
 from rich.table import Table
 
 from .._version import __version__
-from ..finite import or_none
-from .configuration import Configured, configured
-from .console import MARKS, escape, report_console, show_configuration
-from .fitting import fitting, with_sentences
+from ..analysis.configuration import Configured, configured
+from ..support.arrays import or_none
 from .model import CheckRow, Input, Remark, input_of, remarks
+from .terminal.console import MARKS, escape, report_console, show_configuration
+from .terminal.fitting import fitting, with_sentences
 
 if TYPE_CHECKING:
-    from ..maps import SurfaceMap
+    from ..analysis.maps import SurfaceMap
 
 
 class Range(msgspec.Struct):

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from ..analysis.configuration import sentence
 from ..checks.base import rules
-from ..printable import shown
-from .configuration import sentence
+from ..support.words import shown
 from .model import Report
-from .proof import proof
-from .words import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
+from .phrases import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
+from .verdict import proof
 
 _TOPOLOGY = {
     "vertices": "vertices",

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 
-from ..declare import passes
+from ..analysis.configuration import Configured
+from ..curvatures.registry import passes
 from ..errors import Notice
-from ..printable import in_json, shown
-from .configuration import Configured
+from ..support.words import in_json, shown
 from .statistics import ColumnStatistics
 
 if TYPE_CHECKING:
-    from ..loading.model import MeshFile
+    from ..mesh.file import MeshFile
 
 Value = float | list[float | None] | None
 

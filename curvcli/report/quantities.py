@@ -7,13 +7,14 @@ from typing import Any, TypedDict
 
 from rich.table import Table
 
-from ..declare import CELL_AREA, NO_QUANTITIES, Quantity, passes
+from ..curvatures.catalogue import load_passes, resolve
+from ..curvatures.quantity import CELL_AREA, NO_QUANTITIES, Quantity
+from ..curvatures.registry import passes
 from ..errors import UsageError
-from ..nearest import suggestion
-from ..pipeline import load_passes, resolve
+from ..support.words import suggestion
 from .advice import plain
-from .console import escape, report_console
-from .fitting import fitting, plain_table
+from .terminal.console import escape, report_console
+from .terminal.fitting import fitting, plain_table
 
 _BOLD = str.maketrans("", "", "*")
 # The least width of a column of formulas.

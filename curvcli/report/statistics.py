@@ -10,8 +10,8 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from ..declare import Quantity
-from ..slices import slices
+from ..curvatures.quantity import Quantity
+from ..support.blocks import slices
 
 
 class ColumnStatistics(msgspec.Struct):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ..errors import UsageError
-from ..nearest import suggestion
+from ..support.words import suggestion
 
 if TYPE_CHECKING:
     from .model import Sample, SampleSpec

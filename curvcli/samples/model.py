@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import UsageError
-from ..nearest import suggestion
+from ..support.words import suggestion
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int32]

@@ -18,12 +18,11 @@ import pytest
 import curvcli
 from curvcli.batch import outcome, processes
 from curvcli.batch.batch import Batch
+from curvcli.batch.locations import hash_of
 from curvcli.batch.manifest import Manifest
 from curvcli.batch.model import Limits, Row, Settings
-from curvcli.batch.places import hash_of
 from curvcli.batch.plan import plan
-from curvcli.errors import InputError, OutputError
-from curvcli.exits import exit_code
+from curvcli.errors import InputError, OutputError, exit_code
 from tests.batch.conftest import ALL, BAD, GOOD, Run
 from tests.cli.program import environment
 from tests.shared import SHARED, needs_shared

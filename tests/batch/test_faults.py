@@ -195,8 +195,8 @@ from curvcli.commands.allocation import keep_memory
 keep_memory()
 from curvcli.batch.model import Item, Limits, Settings
 from curvcli.batch.run import run
-from curvcli.memory import bound
-from curvcli.pipeline import load_passes
+from curvcli.support.memory import bound
+from curvcli.curvatures.engine import load_passes
 load_passes()
 for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
     importlib.import_module(name)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from curvcli.batch.places import parts_of
+from curvcli.batch.locations import parts_of
 from curvcli.batch.plan import plan, saves
 from curvcli.errors import InputError, MissingExtraError, NoMatchError, UsageError
 from tests.batch.conftest import ALL

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from curvcli.batch.places import expand
+from curvcli.batch.locations import expand
 from curvcli.batch.walk import spellings
 from tests.cli.program import curvcli
 from tests.meshes import tetrahedron

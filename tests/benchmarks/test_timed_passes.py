@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from curvcli.declare import passes
-from curvcli.pipeline import load_passes
+from curvcli.curvatures.catalogue import load_passes
+from curvcli.curvatures.registry import passes
 from tests.cli.program import ROOT
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from curvcli.analysis import analyze
-from curvcli.gate import judge, plan
-from curvcli.report.check import CheckedMesh, CheckReport, Outcome, report_of
+from curvcli.api import analyze
+from curvcli.report.check.judge import judge, plan
+from curvcli.report.check.model import CheckedMesh, CheckReport, Outcome, report_of
 from tests.meshes import Mesh
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from curvcli.analysis import analyze
-from curvcli.assertions import OPERATORS, STATISTICS, columns, parse
+from curvcli.api import analyze
 from curvcli.errors import UsageError
+from curvcli.report.check.assertions import OPERATORS, STATISTICS, columns, parse
 from tests import meshes
 from tests.check.gates import judged, outcome
 

@@ -16,18 +16,18 @@ import junitparser
 import numpy as np
 import pytest
 
-from curvcli.analysis import Analysis
+from curvcli.analysis.request import Conventions
+from curvcli.api import Analysis
 from curvcli.checks import Check
 from curvcli.checks.base import rules
 from curvcli.commands.schemas import SCHEMAS
-from curvcli.conventions import Conventions
-from curvcli.gate import gap, judge, plan
-from curvcli.report.check import CheckReport, failed_input, sentence, write_json
-from curvcli.report.check_text import write_text
-from curvcli.report.github import write_github
-from curvcli.report.junit import write_junit
-from curvcli.report.sarif import uri_of, write_sarif
-from curvcli.surface import Surface
+from curvcli.mesh.surface import Surface
+from curvcli.report.check.github import write_github
+from curvcli.report.check.judge import gap, judge, plan
+from curvcli.report.check.junit import write_junit
+from curvcli.report.check.model import CheckReport, failed_input, sentence, write_json
+from curvcli.report.check.sarif import uri_of, write_sarif
+from curvcli.report.terminal.check import write_text
 from tests import meshes
 from tests.check.gates import judged, report
 

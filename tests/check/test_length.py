@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from curvcli.report.check import CheckedMesh, CheckReport, Outcome, Rule, report_of
-from curvcli.report.check_lines import FIRST, MOST
-from curvcli.report.check_text import write_text
-from curvcli.report.github import write_github
-from curvcli.report.junit import write_junit
+from curvcli.report.check.github import write_github
+from curvcli.report.check.junit import write_junit
+from curvcli.report.check.lines import FIRST, MOST
+from curvcli.report.check.model import CheckedMesh, CheckReport, Outcome, Rule, report_of
+from curvcli.report.check.sarif import write_sarif
 from curvcli.report.model import Remark
-from curvcli.report.sarif import write_sarif
+from curvcli.report.terminal.check import write_text
 from tests.check.gates import judged
 from tests.cli.program import CUBE, DISK, MOBIUS, curvcli
 from tests.meshes import Mesh, icosphere, tetrahedron

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from curvcli.analysis import analyze
+from curvcli.api import analyze
+from curvcli.checks.requirements import DEFAULT, kinds
 from curvcli.errors import UsageError
-from curvcli.gate import plan
-from curvcli.requirements import DEFAULT, kinds
+from curvcli.report.check.judge import plan
 from tests import meshes
 from tests.check.gates import judged, outcome
 from tests.meshes import Mesh, joined, mesh, of_sample, tetrahedron, zoo

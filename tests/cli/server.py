@@ -18,8 +18,15 @@ from collections.abc import Sequence
 # What a command imports; no threads are started by importing these, so that a fork is whole.
 MODULES = (
     *("trimesh", "polars", "scipy.sparse.csgraph", "rich.console", "rich.table", "msgspec", "cmap"),
-    *("curvcli.analysis", "curvcli.gate", "curvcli.differences", "curvcli.tables", "curvcli.curves", "curvcli.maps"),
-    *("curvcli.report.build", "curvcli.report.text", "curvcli.output.write", "curvcli.samples"),
+    *(
+        "curvcli.analysis.result",
+        "curvcli.report.check.judge",
+        "curvcli.report.compare.values",
+        "curvcli.output.tables.columns",
+        "curvcli.curves",
+        "curvcli.analysis.maps",
+    ),
+    *("curvcli.report.build", "curvcli.report.terminal.summary", "curvcli.output.write", "curvcli.samples"),
     *(f"curvcli.commands.{name}" for name in ("analyze", "batch", "check", "compare", "curves", "passes", "sample")),
 )
 
@@ -47,7 +54,7 @@ def serve(address: str) -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     for name in MODULES:
         import_module(name)
-    from curvcli.pipeline import load_passes
+    from curvcli.curvatures.catalogue import load_passes
 
     load_passes()
     with socket.socket(socket.AF_UNIX) as door:

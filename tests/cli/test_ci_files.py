@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 import yaml
 
-from curvcli.commands.main import COMMANDS
+from curvcli.commands.names import COMMANDS
 from tests.cli.program import ROOT, environment, served
 
 

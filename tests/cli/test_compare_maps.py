@@ -108,7 +108,7 @@ def test_table_on_stdout(within: Run, square: Path, stretched: Path) -> None:
 
 
 def test_failing_identity_is_exit_1(within: Run, square: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from curvcli import maps
+    from curvcli.analysis import maps
 
     monkeypatch.setattr(maps, "rounding", lambda surface, terms: -terms)
     code, out, _ = within("compare", square, square, "--map")

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from curvcli.commands.main import COMPLETE, cli
-from curvcli.commands.scripts import ASKING
+from curvcli.commands.completion.scripts import ASKING
+from curvcli.commands.main import cli
+from curvcli.commands.names import COMPLETE
 from tests.cli.program import curvcli, environment
 
 RC = "alias ll='ls -l'\nexport EDITOR=vi"  # without a last newline, as many have it

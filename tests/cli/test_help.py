@@ -8,7 +8,8 @@ import sys
 import pytest
 
 import curvcli as package
-from curvcli.commands.main import COMMANDS, cli
+from curvcli.commands.main import cli
+from curvcli.commands.names import COMMANDS
 from tests.cli.program import curvcli, environment
 
 HEAVY = ("numpy", "scipy", "trimesh", "polars", "rich", "msgspec")

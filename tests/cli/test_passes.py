@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from curvcli.pipeline import resolve
+from curvcli.curvatures.catalogue import resolve
 from curvcli.report.quantities import find, public
 from tests.cli.program import CUBE, Ended, curvcli, wrote
 from tests.columns import PUBLIC

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import curvcli
-from curvcli.nearest import nearest, suggestion
+from curvcli.support.words import nearest, suggestion
 from tests.cli.conftest import Run
 from tests.cli.program import CUBE
 

@@ -12,8 +12,9 @@ import pytest
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
-from curvcli.declare import Element, passes
+from curvcli.api import Analysis
+from curvcli.curvatures.quantity import Element
+from curvcli.curvatures.registry import passes
 from tests.cli.program import Ended, wrote
 from tests.meshes import of_sample
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from curvcli.printable import from_cell, in_cell, in_json, in_sarif
+from curvcli.support.words import from_cell, in_cell, in_json, in_sarif
 from tests.cli.conftest import Run
 from tests.cli.program import command, environment
 from tests.cli.text_sources import PAYLOADS, SOURCES, Source, ply, stored

@@ -12,13 +12,14 @@ from click.testing import CliRunner
 
 import curvcli as package
 from curvcli.checks import rules
-from curvcli.commands.main import COMMANDS, cli
+from curvcli.checks.requirements import kinds
+from curvcli.commands.main import cli
+from curvcli.commands.names import COMMANDS
 from curvcli.commands.schemas import SCHEMAS, path_of
 from curvcli.commands.topics import TOPICS
-from curvcli.declare import passes
-from curvcli.exits import EXIT_CODES
+from curvcli.curvatures.registry import passes
+from curvcli.errors import EXIT_CODES
 from curvcli.output.formats import FORMATS
-from curvcli.requirements import kinds
 from tests.cli.program import CUBE, DISK, ROOT, curvcli
 
 

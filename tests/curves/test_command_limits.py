@@ -9,7 +9,7 @@ import pytest
 
 from curvcli.curves.collect import curves_of_surface
 from curvcli.curves.measure import CurveMeasures
-from curvcli.loading.surfaces import load
+from curvcli.loading.load import load
 from curvcli.report.curves import LISTED_CURVES, model
 from tests import meshes
 from tests.curves.conftest import Cli, polyline

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from curvcli.curves.joined import Joined, join
-from curvcli.loading.model import Polylines
+from curvcli.mesh.file import Polylines
 from tests.curves.conftest import Cli, polyline
 from tests.curves.shapes import regular, trefoil
 

@@ -7,23 +7,24 @@ import re
 import pytest
 from click import Context
 
+from curvcli.analysis.maps import SurfaceMap
 from curvcli.checks import rules
-from curvcli.commands.main import COMMANDS, cli
+from curvcli.checks.requirements import kinds
+from curvcli.commands.main import cli
+from curvcli.commands.names import COMMANDS
 from curvcli.curves.collect import curves_of_surface
 from curvcli.curves.measure import CurveMeasures
-from curvcli.exits import EXIT_CODES
-from curvcli.maps import SurfaceMap
-from curvcli.pages import PAGES, PARTS, current
+from curvcli.errors import EXIT_CODES
 from curvcli.report.quantities import public
-from curvcli.requirements import kinds
 from curvcli.samples import names
+from docs.pages import PAGES, PARTS, current
 from tests import meshes
 from tests.docs.pages import NAMES, ROOT, text
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "README.md"])
 def test_a_page_is_current(name: str) -> None:
-    """`python -m curvcli.pages docs` makes it again."""
+    """`python -m docs.pages docs` makes it again."""
     assert current(name.removeprefix("docs/"), text(name)) == text(name)
 
 

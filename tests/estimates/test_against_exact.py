@@ -9,7 +9,7 @@ import numpy as np
 import polars as pl
 import pytest
 
-from curvcli.accuracy import error_norms, match
+from curvcli.report.compare.exact import error_norms, match
 from tests.cli.program import curvcli as run
 
 

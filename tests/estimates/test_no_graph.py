@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.samples import get
 from tests.meshes import Mesh, mesh
 from tests.shared import SHARED, needs_shared

@@ -10,12 +10,12 @@ import pytest
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.declare import passes
+from curvcli.curvatures.catalogue import presets
+from curvcli.curvatures.registry import passes
 from curvcli.errors import UsageError
-from curvcli.loading.model import MeshFile
-from curvcli.pipeline import presets
+from curvcli.mesh.file import MeshFile
+from curvcli.mesh.surface import Surface
 from curvcli.samples import get, names
-from curvcli.surface import Surface
 from tests import meshes
 from tests.meshes import Mesh, joined
 

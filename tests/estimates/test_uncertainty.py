@@ -7,9 +7,9 @@ import pytest
 
 import curvcli
 from curvcli.errors import UsageError
-from curvcli.precision import precision
+from curvcli.mesh.precision import precision
+from curvcli.mesh.surface import Surface
 from curvcli.samples import get
-from curvcli.surface import Surface
 
 Floats = np.ndarray
 

@@ -26,7 +26,7 @@ import pytest
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from tests.meshes import Mesh, mesh, of_sample
 
 Floats = NDArray[np.float64]

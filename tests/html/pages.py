@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
+from curvcli.output.appearance import Appearance
 from curvcli.output.html.page import page
-from curvcli.output.write import Appearance
 from tests.html.parsed import Page
 from tests.meshes import Mesh
 

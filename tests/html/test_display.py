@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from curvcli.mesh.surface import Surface
 from curvcli.output.html.display import Display, simplified, whole
-from curvcli.surface import Surface
 from tests.meshes import Mesh, grid, mesh, of_sample, tetrahedron
 
 

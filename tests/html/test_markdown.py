@@ -9,10 +9,10 @@ import pytest
 from markdown_it import MarkdownIt
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.report.build import model
 from curvcli.report.markdown import markdown
-from curvcli.report.words import shell_quoted, verdict
+from curvcli.report.phrases import shell_quoted, verdict
 from tests.html.pages import HOSTILE, labelled
 from tests.meshes import Mesh, grid, of_sample
 

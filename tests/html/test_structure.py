@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.output.camera import frame
 from curvcli.output.html import engine as engines
 from curvcli.output.html import page as pages
 from curvcli.output.html.engine import engine
+from curvcli.output.pictures.camera import frame
 from tests.html.pages import HOSTILE, labelled, page_of, parsed
 from tests.html.parsed import Page
 from tests.meshes import grid, of_sample, tetrahedron

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from hypothesis import strategies as st
 
-from curvcli.loading.model import MeshFile
+from curvcli.mesh.file import MeshFile
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from curvcli.loading.read import read_mesh_file
-from curvcli.printable import shown
+from curvcli.support.words import shown
 from tests.loading.files import CONTENT, OBJ, PLY, STL, refused
 
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from curvcli.loading.model import MeshFile
-from curvcli.loading.polygons import triangulate
+from curvcli.mesh.file import MeshFile
+from curvcli.mesh.polygons import triangulate
 
 ARROW = [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)]
 COMB = [(0, 0), (9, 0), (9, 5), (8, 1), (7, 5), (6, 1), (5, 5), (4, 1), (3, 5), (2, 1), (1, 5)]

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from curvcli.errors import InputError
-from curvcli.loading.model import MeshFile
-from curvcli.loading.polygons import triangulate
 from curvcli.loading.read import read_mesh_file
-from curvcli.loading.surfaces import from_file
+from curvcli.mesh.file import MeshFile
+from curvcli.mesh.polygons import from_file, triangulate
 from tests.shared import SHARED, needs_shared
 
 pytestmark = needs_shared

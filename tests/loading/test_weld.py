@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from curvcli.errors import InputError
-from curvcli.loading import weld
 from curvcli.loading.obj import parse_obj
-from curvcli.loading.weld import weld_exact, weld_within, welded
+from curvcli.mesh import welding as weld
+from curvcli.mesh.welding import weld_exact, weld_within, welded
 
 few = st.sampled_from([0.0, -0.0, 1.0, 1e-300, 1 + 2**-52, -1.0, 1e300])
 positions = arrays(np.float64, st.tuples(st.just(3), st.integers(1, 60)), elements=few)

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from curvcli.errors import MissingExtraError
-from curvcli.output.render import require_opengl
-from curvcli.output.sheet import Sheet
+from curvcli.output.pictures.render import require_opengl
+from curvcli.output.pictures.sheet import Sheet
 
 Pixels = NDArray[np.uint8]
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from curvcli.errors import UsageError
-from curvcli.output.colors import ColorScale, colorize
+from curvcli.output.pictures.colors import ColorScale, colorize
 
 GREY = [128, 128, 128]
 VIRIDIS = [68, 1, 84], [253, 231, 37]
@@ -144,6 +144,9 @@ def test_a_range_that_is_none(text: str) -> None:
 
 
 def test_a_map_known_by_two_names_says_nothing() -> None:
-    program = "import numpy as np; from curvcli.output.colors import colorize; colorize(np.zeros(1), cmap='coolwarm')"
+    program = (
+        "import numpy as np; from curvcli.output.pictures.colors import colorize; "
+        "colorize(np.zeros(1), cmap='coolwarm')"
+    )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == done.stderr == ""

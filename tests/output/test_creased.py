@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.errors import UsageError
+from curvcli.output.appearance import Appearance, colored
 from curvcli.output.cells import own_cells
 from curvcli.output.html.page import page as page_bytes
-from curvcli.output.look import Look
-from curvcli.output.write import Appearance, check_appearance, colored
+from curvcli.output.pictures.framing import Look
+from curvcli.output.write import check_appearance
 from tests import meshes
 from tests.cli.program import curvcli as program
 from tests.html.parsed import Page

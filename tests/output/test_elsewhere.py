@@ -14,13 +14,14 @@ import pytest
 import trimesh
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.errors import OutputError
-from curvcli.loading.model import Labels
-from curvcli.output.glb import write_glb
-from curvcli.output.vtk import write_vtk
-from curvcli.output.write import Appearance, write_outputs
-from curvcli.tables import vertex_properties
+from curvcli.mesh.file import Labels
+from curvcli.output.appearance import Appearance
+from curvcli.output.meshes.glb import write_glb
+from curvcli.output.meshes.vtk import write_vtk
+from curvcli.output.tables.columns import vertex_properties
+from curvcli.output.write import write_outputs
 from tests.meshes import of_sample
 
 QUADS = """v 0 0 0

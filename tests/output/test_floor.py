@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
+from curvcli.output.appearance import Appearance, colored
 from curvcli.output.html.columns import columns
-from curvcli.output.legend import range_text
-from curvcli.output.write import Appearance, colored
+from curvcli.output.pictures.legend import range_text
 from tests import meshes
 from tests.html.pages import page_of
 from tests.html.parsed import Page

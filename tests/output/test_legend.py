@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from curvcli.output.colors import categorize, colorize
-from curvcli.output.histogram import distribution
-from curvcli.output.legend import number, range_text, ticks
+from curvcli.output.pictures.colors import categorize, colorize
+from curvcli.output.pictures.histogram import distribution
+from curvcli.output.pictures.legend import number, range_text, ticks
 
 FINITE = st.floats(-1e300, 1e300, allow_subnormal=False)
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from curvcli.errors import MissingExtraError, UsageError
-from curvcli.output.camera import frame, screen
-from curvcli.output.look import Look, arrange, check_look, parse_size, parse_view
+from curvcli.output.pictures.camera import frame, screen
+from curvcli.output.pictures.framing import Look, arrange, check_look, parse_size, parse_view
 from tests.meshes import of_sample
 
 

@@ -12,9 +12,9 @@ import pytest
 
 import curvcli
 from curvcli.loading.ply_header import parse_header
-from curvcli.output.names import fitting, one_word, xml_name
-from curvcli.output.ply import write_ply
-from curvcli.output.vtk import write_vtk
+from curvcli.output.meshes.names import fitting, one_word, xml_name
+from curvcli.output.meshes.ply import write_ply
+from curvcli.output.meshes.vtk import write_vtk
 from curvcli.output.write import write_outputs
 
 # Kept by every format: words that can be printed.

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from curvcli.output.obj import write_obj
+from curvcli.output.meshes.obj import write_obj
 
 POINTS = np.array([[0, 1e-300, -0.0], [1, 1e308, 5e-324], [0, 1 / 3, 12345678901234567890]])
 FACES = np.array([[0, 1, 2], [2, 1, 0]])

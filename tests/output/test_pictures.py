@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis import Analysis
-from curvcli.output.camera import screen
-from curvcli.output.colors import colorize
-from curvcli.output.look import Look
-from curvcli.output.render import Lines, render
-from curvcli.output.sheet import Sheet
-from curvcli.output.write import Appearance, write_into
+from curvcli.api import Analysis
+from curvcli.output.appearance import Appearance
+from curvcli.output.pictures.camera import screen
+from curvcli.output.pictures.colors import colorize
+from curvcli.output.pictures.framing import Look
+from curvcli.output.pictures.render import Lines, render
+from curvcli.output.pictures.sheet import Sheet
+from curvcli.output.write import write_into
 from tests.meshes import Mesh, of_sample
 from tests.output.images import Pixels, collisions, decoded, difference_hash, near, opengl
 
@@ -208,7 +209,7 @@ def test_no_text_is_cut_off_or_lies_on_another(
 ) -> None:
     """The surface is left out, which is drawn into a box of its own."""
     monkeypatch.setattr(
-        "curvcli.output.picture.render",
+        "curvcli.output.pictures.picture.render",
         lambda *given, **options: [np.zeros((given[3][1], given[3][0], 3), np.uint8)] * len(given[2]),
     )
     analysis = analysed(name, size=300) if name != "book" else analysed(name)
@@ -224,10 +225,10 @@ def test_no_text_is_cut_off_or_lies_on_another(
 
 def test_a_file_name_of_any_length_and_script_stands_in_the_legend(sheets: list[Sheet]) -> None:
     analysis = analysed("torus", size=100)
-    file = curvcli.loading.model.MeshFile(
+    file = curvcli.mesh.file.MeshFile(
         "ply", analysis.surface.xyz, analysis.surface.faces.ravel(), path="/x/" + "名$x_" * 60
     )
-    named = curvcli.analyze(curvcli.surface.Surface(analysis.surface.points, analysis.surface.faces, file=file))
+    named = curvcli.analyze(curvcli.mesh.surface.Surface(analysis.surface.points, analysis.surface.faces, file=file))
     seen(named, look=Look(size=(300, 260)))
     assert collisions(sheets[-1]) == []
 

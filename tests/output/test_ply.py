@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from curvcli.loading.model import Labels
-from curvcli.output.ply import write_ply
+from curvcli.mesh.file import Labels
+from curvcli.output.meshes.ply import write_ply
 
 TYPES = {
     "char": "i1",

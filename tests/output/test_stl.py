@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from curvcli.errors import OutputError
-from curvcli.output.stl import write_stl, write_stl_text
+from curvcli.output.meshes.stl import write_stl, write_stl_text
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.5]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])

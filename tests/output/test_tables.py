@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from curvcli.errors import OutputError, UsageError
-from curvcli.loading.model import Labels
-from curvcli.output.tables import Column, write_table
+from curvcli.mesh.file import Labels
+from curvcli.output.tables.write import Column, write_table
 
 HARD = [
     5e-324,

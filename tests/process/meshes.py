@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from curvcli.output.meshes import write_mesh
+from curvcli.output.meshes.write import write_mesh
 from curvcli.samples import get
 from tests import meshes
 from tests.meshes import Mesh, fan, icosphere, joined, mesh

@@ -14,8 +14,8 @@ import pytest
 
 import curvcli
 from curvcli.errors import InputError
-from curvcli.loading import weld
-from curvcli.loading.stored import read_stored_table
+from curvcli.loading.tables import read_stored_table
+from curvcli.mesh import welding as weld
 from tests.cli.program import CUBE, command, environment
 from tests.cli.program import curvcli as run
 
@@ -194,8 +194,8 @@ def test_a_radius_larger_than_the_mesh(radius: str, tmp_path: Path) -> None:
 
 def test_a_radius_that_takes_in_more_than_it_seems(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """A crowd within the radius of each other, in a mesh whose other edges are long."""
-    from curvcli import neighbourhoods
-    from curvcli.settings import parse_radius
+    from curvcli.mesh import neighbourhoods
+    from curvcli.mesh.scale import parse_radius
 
     monkeypatch.setattr(neighbourhoods, "_MOST_EXPECTED", 100)
     random = np.random.default_rng(3)

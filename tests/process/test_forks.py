@@ -111,7 +111,7 @@ def test_what_needs_the_threads_is_refused_in_a_child(texts: dict[str, Path], tm
 first = curvcli.analyze(path)
 first.write(sys.argv[3] + "/parent.parquet")
 child(lambda: first.write(sys.argv[3] + "/child.parquet"))
-from curvcli.loading.stored import read_stored_table
+from curvcli.loading.tables import read_stored_table
 child(lambda: read_stored_table(sys.argv[3] + "/parent.parquet"))
 """
     told = program(text, texts["obj"], 9, tmp_path).splitlines()

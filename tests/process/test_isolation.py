@@ -26,7 +26,7 @@ DANGEROUS = {
 # the commands tell the C library how to keep memory; pictures ask whether the system has OpenGL, which VTK needs.
 ALLOWED = {
     ("curvcli/commands/allocation.py", "ctypes"),
-    ("curvcli/output/render.py", "ctypes"),
+    ("curvcli/output/pictures/render.py", "ctypes"),
     ("curvcli/batch/processes.py", "subprocess"),
 }
 # A command with a bound on its time or memory goes on in a child of itself, which its parent can end.

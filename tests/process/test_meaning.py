@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.analysis.notices import welding
+from curvcli.api import Analysis
 from curvcli.checks import rules
 from curvcli.errors import InputError, Notice
-from curvcli.findings import welding
-from curvcli.loading.weld import weld_exact
+from curvcli.mesh.surface import Surface
+from curvcli.mesh.welding import weld_exact
 from curvcli.report.build import model
-from curvcli.report.proof import proof
-from curvcli.surface import Surface
+from curvcli.report.verdict import proof
 from tests import meshes
 from tests.meshes import Mesh
 from tests.process.meshes import HOSTILE, cut_apart, scaled, seam, shifted

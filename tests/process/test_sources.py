@@ -20,10 +20,10 @@ import trimesh
 from curvcli.errors import InputError
 from curvcli.loading import content
 from curvcli.loading.content import read_limited, read_stream
+from curvcli.loading.labels import read_labels
 from curvcli.loading.pieces import Pieces
-from curvcli.loading.stored import read_stored_table
-from curvcli.regions import read_labels
-from curvcli.report.stored import read_report
+from curvcli.loading.tables import read_stored_table
+from curvcli.report.compare.stored import read_report
 from tests.cli.program import CUBE, command, environment
 from tests.cli.program import curvcli as run
 from tests.cli.within import within_this
@@ -198,7 +198,8 @@ def test_labels_that_are_cut_off_while_they_are_read(tmp_path: Path) -> None:
     path = tmp_path / "labels.npy"
     np.save(path, np.arange(1 << 21))
     program = (
-        "import os, sys; from curvcli.loading import content; from curvcli.regions import read_labels; import io\n"
+        "import io, os, sys\n"
+        "from curvcli.loading import content; from curvcli.loading.labels import read_labels\n"
         "class Cut(io.FileIO):\n"
         "    def read(self, size=-1): os.truncate(sys.argv[1], 4096); return super().read(size)\n"
         "content.io.FileIO = Cut\n"

@@ -38,11 +38,11 @@ def test_the_wheel_holds_the_package_and_nothing_else(built: Built) -> None:
     inside = {name for name in built.in_wheel if ".dist-info/" not in name}
     assert inside == package
     assert "curvcli/py.typed" in inside
-    assert {f"curvcli/schemas/{name}.schema.json" for name in SCHEMAS} <= inside
+    assert {f"curvcli/commands/data/schemas/{name}.schema.json" for name in SCHEMAS} <= inside
     assert {
         f"curvcli/output/html/three/{name}" for name in ("three.min.js", "TrackballControls.js", "LICENSE")
     } <= inside
-    assert {"curvcli/topics/conventions.txt", "curvcli/topics/python.txt"} <= inside
+    assert {"curvcli/commands/data/topics/conventions.txt", "curvcli/commands/data/topics/python.txt"} <= inside
 
 
 def test_the_source_archive_holds_what_is_needed_to_work_on_it(built: Built) -> None:

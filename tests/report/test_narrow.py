@@ -8,12 +8,15 @@ from collections.abc import Callable
 import pytest
 from rich.console import Console
 
-from curvcli.accuracy import ErrorNorms
+from curvcli.analysis.maps import SurfaceMap
 from curvcli.curves.collect import curves_of_surface
 from curvcli.curves.measure import CurveMeasures
-from curvcli.maps import SurfaceMap
-from curvcli.report import accuracy, advice, check_text, curves, curves_text, differences, maps
-from curvcli.report.check import CheckedMesh, CheckReport, Outcome, Rule
+from curvcli.report import accuracy, advice, curves, maps
+from curvcli.report.check.model import CheckedMesh, CheckReport, Outcome, Rule
+from curvcli.report.compare import model as differences
+from curvcli.report.compare.exact import ErrorNorms
+from curvcli.report.terminal import check as check_text
+from curvcli.report.terminal import curves as curves_text
 from tests.meshes import of_sample
 
 SENTENCE = "a sentence of several words that says what holds on every mesh and what does not, as identities do"

@@ -11,10 +11,10 @@ from rich.console import Console
 from rich.table import Table
 
 import curvcli
-from curvcli.analysis import Analysis
+from curvcli.api import Analysis
 from curvcli.checks import Check
-from curvcli.report import text
-from curvcli.report.fitting import fitting, plain_table
+from curvcli.report.terminal import summary as text
+from curvcli.report.terminal.fitting import fitting, plain_table
 from tests.meshes import Mesh, of_sample
 
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...resolution import STARS
-from ..legend import Colored
-from ..write import along_edges, colored
+from ...analysis.resolution import STARS
+from ..appearance import along_edges, colored
+from ..pictures.legend import Colored
 from .display import Display
 
 if TYPE_CHECKING:
-    from ...analysis import Analysis
-    from ..write import Appearance
+    from ...analysis.result import Result
+    from ..appearance import Appearance
 
 # Colours that lines have; and more faces than these are blended, since a browser holds seven triangles of each.
 _SHADES, _MOST_FACES = 31, 100_000
@@ -31,7 +31,7 @@ class Bend:
     shades: list[tuple[tuple[int, int, int], int]]
 
 
-def bend(analysis: Analysis, appearance: Appearance, asked: tuple[str, ...], display: Display) -> Bend | None:
+def bend(analysis: Result, appearance: Appearance, asked: tuple[str, ...], display: Display) -> Bend | None:
     """The first column of edges that is asked for, on the edges whose two ends are shown; None without one.
 
     Undefined edges and those with the colour of 0 are left out.
@@ -65,7 +65,7 @@ def bend(analysis: Analysis, appearance: Appearance, asked: tuple[str, ...], dis
     return Bend(one, one.unit(analysis.conventions.unit), ends[order].astype(np.int32), shades)
 
 
-def in_cells(analysis: Analysis, display: Display) -> bool:
+def in_cells(analysis: Result, display: Display) -> bool:
     """Whether densities of stars are painted in the cells of their vertices: on creased meshes that are shown whole."""
     few = display.whole and len(display.faces) <= _MOST_FACES
     return few and any(notice.code == "creased" for notice in analysis.notices)

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...loading.model import Labels
-from ...tables import vertex_table
-from ..colors import ColorScale
-from ..legend import Colored
-from ..write import colored
+from ...mesh.file import Labels
+from ..appearance import colored
+from ..pictures.colors import ColorScale
+from ..pictures.legend import Colored
+from ..tables.columns import vertex_table
 
 if TYPE_CHECKING:
-    from ...analysis import Analysis
-    from ..write import Appearance
+    from ...analysis.result import Result
+    from ..appearance import Appearance
 
 _BINS = 60
 # Values without a colour of their own.
@@ -60,7 +60,7 @@ class Column:
         return None if low is None or high is None else low / 2 + high / 2
 
 
-def columns(analysis: Analysis, appearance: Appearance, asked: tuple[str, ...]) -> list[Column]:
+def columns(analysis: Result, appearance: Appearance, asked: tuple[str, ...]) -> list[Column]:
     """Every numeric column of the vertex table, in its order.
 
     asked: the columns that `--range LO:HI` speaks of; a percentage is for all.

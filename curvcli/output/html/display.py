@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...surface import Surface
+from ...mesh.surface import Surface
 
 Index = NDArray[np.int32]
 

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 
+from ...analysis.configuration import sentence
 from ...checks.base import rules
-from ...printable import shown
 from ...report.build import model
-from ...report.configuration import sentence
-from ...report.proof import holds, proof
+from ...report.phrases import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ...report.quantities import unmarked
-from ...report.words import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
-from ..camera import frame
-from ..look import VIEWS, Look, parse_view
+from ...report.verdict import holds, proof
+from ...support.words import shown
+from ..pictures.camera import frame
+from ..pictures.framing import VIEWS, Look, parse_view
 from .bend import bend, cell, in_cells
 from .columns import Column, columns, hex_color
 from .display import Display, simplified, whole
@@ -28,8 +28,8 @@ from .packing import differences, packed, scaled, steps
 if TYPE_CHECKING:
     from jinja2 import Template
 
-    from ...analysis import Analysis
-    from ..write import Appearance
+    from ...analysis.result import Result
+    from ..appearance import Appearance
 
 # The page may have 15 MB; what is not the surface is well below 2.
 SURFACE_BYTES = 12_500_000
@@ -37,7 +37,7 @@ SURFACE_BYTES = 12_500_000
 MOST_VERTICES = 200_000
 
 
-def page(analysis: Analysis, appearance: Appearance, colored: tuple[str, ...], command: str | None) -> bytes:
+def page(analysis: Result, appearance: Appearance, colored: tuple[str, ...], command: str | None) -> bytes:
     """The page of an analysis. colored: the columns that were asked for; the first is shown first.
     command: what made it, for a shell.
     """
@@ -120,7 +120,7 @@ def _first(shown: list[Column], colored: tuple[str, ...]) -> str | None:
 
 def _totals() -> dict[str, Any]:
     """The quantity that each total sums."""
-    from ...declare import passes
+    from ...curvatures.registry import passes
 
     return {quantity.total or "": quantity for quantity in passes.totals()}
 
@@ -158,7 +158,7 @@ def _coded(text: str) -> Any:
     return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))
 
 
-def _fitted(analysis: Analysis, shown: list[Column]) -> tuple[Display, dict[str, Any]]:
+def _fitted(analysis: Result, shown: list[Column]) -> tuple[Display, dict[str, Any]]:
     """As much of the surface as the page can hold, and its blocks of data."""
     surface = analysis.surface
     # Deflated and in base64 a float takes about 4.4 bytes, the two faces of a vertex about 14.
@@ -175,7 +175,7 @@ def _fitted(analysis: Analysis, shown: list[Column]) -> tuple[Display, dict[str,
         display = simplified(surface, most)
 
 
-def _blocks(analysis: Analysis, display: Display, shown: list[Column]) -> dict[str, Any]:
+def _blocks(analysis: Result, display: Display, shown: list[Column]) -> dict[str, Any]:
     """The data of the page by name; `meta` says how numbers are to be read."""
     vertices = display.vertices
     meta: dict[str, Any] = {"columns": {}}
@@ -204,7 +204,7 @@ def _blocks(analysis: Analysis, display: Display, shown: list[Column]) -> dict[s
     return {**found, "meta": meta}
 
 
-def _normals(analysis: Analysis, display: Display) -> Any:
+def _normals(analysis: Result, display: Display) -> Any:
     """(n, 3) int8: unit normals of the full surface for its shading, 0 where it has none."""
     normals = analysis.columns["star_vector"][:, display.vertices]
     if not analysis.surface.orientable:
@@ -224,10 +224,10 @@ def _camera(look: Look) -> list[list[float]]:
 
 
 def _data(
-    analysis: Analysis, appearance: Appearance, display: Display, shown: list[Column], meta: dict[str, Any]
+    analysis: Result, appearance: Appearance, display: Display, shown: list[Column], meta: dict[str, Any]
 ) -> dict[str, Any]:
     """What the page's program has to know."""
-    from ...declare import passes
+    from ...curvatures.registry import passes
 
     creased = in_cells(analysis, display)
     described = [

@@ -1,0 +1,1 @@
+"""Analyses: the request, the result, its totals and its notices."""

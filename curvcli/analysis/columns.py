@@ -1,0 +1,54 @@
+"""Columns: what an analysis computed of one element, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Protocol
+
+from numpy.typing import NDArray
+
+from ..curvatures.quantity import Element, Quantity
+from ..curvatures.registry import passes
+
+Array = NDArray[Any]
+
+
+class Holder(Protocol):
+    """An object that has columns: see `Result`."""
+
+    chosen: list[str]
+
+    def shown(self, name: str) -> Array: ...
+
+
+def named(analysis: Holder, element: Element) -> dict[str, tuple[Quantity, int | None]]:
+    """The quantity of each column of an element that an analysis has, and which component of it the column is."""
+    found: dict[str, tuple[Quantity, int | None]] = {}
+    offered = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
+    for quantity in map(passes.quantity, offered):
+        if quantity.on == element:
+            found[quantity.stem] = (quantity, None)
+            if quantity.vector:
+                found |= {column: (quantity, k) for k, column in enumerate(quantity.columns)}
+    return found
+
+
+class Columns(Mapping[str, Array]):
+    """Columns of one element by name, read-only; a vector is there by its stem as (n, 3) and by its components.
+
+    Of vertices, the passes chosen; of edges and faces all there are, computed when they are first asked for.
+    """
+
+    def __init__(self, analysis: Holder, quantities: Mapping[str, tuple[Quantity, int | None]]) -> None:
+        self._analysis, self._quantities = analysis, quantities
+
+    def __getitem__(self, name: str) -> Array:
+        quantity, component = self._quantities[name]
+        column = self._analysis.shown(quantity.name)
+        return column if component is None else column[:, component]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._quantities)
+
+    def __len__(self) -> int:
+        return len(self._quantities)

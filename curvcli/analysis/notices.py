@@ -1,0 +1,261 @@
+"""What a mesh has that its user should know: defects counted, with the first few and the way out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..curvatures.quantity import AT_SCALE
+from ..errors import Notice
+from ..mesh.counts import duplicate_faces, duplicate_vertices
+from ..mesh.precision import is_single, last_place
+from ..mesh.scale import in_words
+from ..mesh.seams import closing, near_seam, welding
+from ..mesh.solids.notices import of_solids
+from ..mesh.surface import Surface
+from ..mesh.triangles import dot, span
+from ..mesh.walls import WALL, facing_pairs
+from ..support.words import agree, counted
+
+# Rounding of the coordinates that moves K by more than this many radians is worth a warning: to doubles; and to
+# float32, which is what most files hold and what their users know, where it spoils K altogether.
+TRUSTED, TRUSTED_SINGLE = 1e-6, 0.5
+
+
+def of_surface(surface: Surface, columns: Mapping[str, Any]) -> list[Notice]:
+    """The notices of a surface, from the gravest down."""
+    return [notice for notice in _all(surface, columns) if notice.count]
+
+
+def out_of_range(lost: Mapping[str, int]) -> list[Notice]:
+    """The notice of results that no double holds in the file's unit; lost: how many of each column and total."""
+    names = [name for name, count in lost.items() if count]
+    if not names:
+        return []
+    count = sum(lost.values())
+    message = agree(count, "[result|results] beyond the range of doubles in the file's unit, left undefined: ")
+    hint = "scale the mesh to an extent near 1: angles and energies stay, lengths and areas become numbers"
+    return [Notice("out_of_range", count, message + ", ".join(names), hint)]
+
+
+def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
+    yield from _not_a_manifold(surface)
+    yield from _vertices_and_faces(surface, columns)
+    yield from _winding(surface)
+    yield from of_solids(surface)
+    if "star_extent" in columns:
+        yield from _coordinate_rounding(surface, columns)
+    if "kappa_clamped" in columns:
+        yield Notice.at(
+            "clamped_radicand",
+            _clamped(surface, columns),
+            "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
+            "H and K are discretised apart: at umbilics, as on spheres, a small error does it; elsewhere the mesh is "
+            "coarse or rough",
+        )
+    if "folded" in columns:
+        yield Notice.at(
+            "folded_edges",
+            np.flatnonzero(columns["folded"]),
+            "[edge|edges] where the surface folds onto itself; H_tan has no value there",
+            "H_theta and H_sin have one; sums of H_tan leave such edges out",
+        )
+    for flag, name in (("below_noise", "K"), ("h_below_noise", "h")):
+        if flag in columns:
+            yield Notice.at(
+                "below_noise",
+                np.flatnonzero(columns[flag]),
+                f"[vertex|vertices] where |{name}| is below its own uncertainty {name}_sigma",
+                f"noise of the coordinates alone explains {name} there; estimates over more rings average noise out",
+            )
+    yield from _not_fitted(columns)
+    if "voronoi_unfinished" in columns:
+        yield Notice.at(
+            "voronoi_unfinished",
+            np.flatnonzero(columns["voronoi_unfinished"]),
+            "[vertex|vertices] whose Voronoi cell would take too many flips to find; it is left empty",
+            "--area mixed needs none; a mesh without long fans of thin triangles needs few",
+        )
+
+
+def _not_fitted(columns: Mapping[str, Any]) -> Iterator[Notice]:
+    """At each scale, where no polynomial over a plane can be the surface."""
+    for name in sorted(columns):
+        plain, _, scale = name.partition(AT_SCALE)
+        if plain == "no_graph":
+            yield Notice.at(
+                "no_graph",
+                np.flatnonzero(columns[name]),
+                f"[vertex|vertices] whose neighbourhood{f' ({in_words(scale)})' if scale else ''} folds over or bends "
+                "more than a graph over its tangent plane can; local fits are undefined there",
+                "*_corrected needs no plane; a smaller scale bends less, and a finer mesh tells more",
+            )
+
+
+def _clamped(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
+    """Vertices whose radicand is clamped, without flat ones: those where K is below what rounded coordinates make it.
+
+    Ends that move by one in the last place turn the edges of a flat star by about place/√A, and K is quadratic in that.
+    """
+    found = np.flatnonzero(columns["kappa_clamped"])
+    if not len(found):
+        return found
+    place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
+    turned = surface.degree[found] * place / np.sqrt(columns["star_area"][found])
+    kept: NDArray[np.intp] = found[np.abs(columns["K"][found]) > turned * turned]
+    return kept
+
+
+def _not_a_manifold(surface: Surface) -> Iterator[Notice]:
+    yield Notice.at(
+        "nonmanifold_edges",
+        np.flatnonzero(surface.nonmanifold_edges),
+        "[edge|edges] where more than two faces meet; densities at [its|their] ends are undefined",
+        "--table edges=PATH has [it|them], with more than 2 in the column faces",
+    )
+    yield Notice.at(
+        "nonmanifold_vertices",
+        np.flatnonzero(surface.split_stars),
+        "[vertex|vertices] whose star is not one fan; densities there are undefined",
+        "give each fan a vertex of its own where parts only touch; weld where a seam cuts the surface",
+    )
+
+
+def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
+    loose = ~surface.referenced
+    if surface.file is not None and surface.file.welded_to is not None:
+        loose &= surface.file.welded_to < 0  # merged rows have a notice of their own
+    yield Notice.at(
+        "unreferenced_vertices",
+        np.flatnonzero(loose),
+        "[vertex|vertices] that no face uses; [its row is|their rows are] empty",
+        "nothing else depends on [it|them]; `curvcli check --require no-unreferenced` refuses such files",
+    )
+    flat = np.flatnonzero(columns["degenerate_face"])
+    corners = surface.xyz[:, surface.faces[flat]]
+    together = (corners == np.roll(corners, 1, axis=2)).all(axis=0).any(axis=1)
+    yield Notice.at(
+        "degenerate_faces",
+        flat,
+        "[face|faces] without area; the mean curvature is undefined at [its|their] corners",
+        "--weld exact drops those with two corners at one place; remesh the others"
+        if together.any()
+        else "remesh there: [its|their] corners lie on a line",
+    )
+    twice, pairs = duplicate_faces(surface), facing_pairs(surface)
+    yield Notice.at(
+        "duplicate_faces",
+        twice,
+        "[face|faces] with the same corners as an earlier one",
+        "see facing_faces: each side of a common wall belongs to its body"
+        if len(twice) == len(pairs)
+        else "remove [it|them] unless both sides are meant: each adds to area and angles",
+    )
+    yield Notice.at(
+        "facing_faces",
+        pairs[:, 1],
+        f"[pair|pairs] of coincident faces [faces|face] each other: {WALL}",
+        "unite the bodies, which removes the wall, or write each to a file of its own; "
+        "`curvcli check --allow manifold,no-duplicate-faces` accepts it",
+    )
+    vertices = duplicate_vertices(surface)
+    yield Notice.at(
+        "duplicate_vertices",
+        vertices,
+        "[vertex|vertices] at exactly the position of an earlier one",
+        welding(surface) if len(vertices) else None,
+    )
+    seam = near_seam(surface)
+    if seam is not None:
+        yield Notice.at(
+            "near_vertices",
+            seam.vertices,
+            "boundary vertices nearly coincide",
+            closing(surface, seam),
+        )
+
+
+def _winding(surface: Surface) -> Iterator[Notice]:
+    flipped = surface.orientation.flipped
+    turned = f"; {counted(flipped, 'face')} {agree(flipped, '[was|were]')} turned for the computation"
+    yield Notice.at(
+        "inconsistent_winding",
+        np.flatnonzero(surface.winding_conflicts),
+        f"[edge|edges] whose two faces run along [it|them] the same way{turned if flipped else ''}",
+        "nothing is lost: the lowest face of each patch decides"
+        if flipped
+        else "no choice of sides puts [it|them] right: see not_orientable",
+    )
+    yield Notice.at(
+        "not_orientable",
+        _first_faces(surface, ~surface.orientation.orientable),
+        "[patch|patches] without orientation, named by [its|their] lowest face; "
+        "signed mean curvature is undefined there",
+        "K, areas and H_vec need none; `curvcli check --require oriented` refuses such files",
+    )
+
+
+def _first_faces(surface: Surface, patches: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """The lowest face of each of these patches."""
+    if not patches.any():
+        return np.empty(0, np.intp)
+    return np.unique(surface.orientation.patch, return_index=True)[1][patches]
+
+
+def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
+    """How much K may owe to the rounding of the coordinates, to doubles or to the float32 numbers they all are."""
+    shortest = max(last_place(surface) / TRUSTED, last_place(surface, np.float32) / TRUSTED_SINGLE)
+    if _edges_are_longer(columns, surface.faces, 2 * np.sqrt(3) * surface.degree.max() * shortest):
+        return
+    along = span(surface.xyz, surface.edges.a, surface.edges.b)
+    edge_length = np.sqrt(dot(along, along))
+    blurred = np.flatnonzero(rounding_of_K(surface, edge_length, last_place(surface), TRUSTED) > TRUSTED)
+    what, bound = "coordinates", TRUSTED
+    if not len(blurred) and is_single(surface.xyz_given):
+        place = last_place(surface, np.float32)
+        blurred = np.flatnonzero(rounding_of_K(surface, edge_length, place, TRUSTED_SINGLE) > TRUSTED_SINGLE)
+        what, bound = "coordinates, which are all float32 numbers,", TRUSTED_SINGLE
+    yield Notice.at(
+        "coordinate_rounding",
+        blurred,
+        f"[vertex|vertices] where the rounding of the {what} alone may change K by more than {bound:g} radians",
+        _more_digits(surface) if len(blurred) else None,
+    )
+
+
+def _edges_are_longer(columns: Mapping[str, Any], faces: NDArray[Any], length: float) -> bool:
+    """Whether every edge surely is, without a look at the edges: none is shorter than twice the area of its face by the
+    longest edge of that, which is less than what the extents of the faces at a vertex add up to."""
+    area, extent = columns["face_area"], columns["star_extent"]
+    if 2 * area.min() > length * np.nanmax(extent):
+        return True
+    return bool((2 * area > length * extent[faces[:, 0]]).all())
+
+
+def _more_digits(surface: Surface) -> str:
+    """Where the digits went that K would need."""
+    used = surface.used_coordinates()
+    largest = np.abs(used).max()
+    if largest < np.finfo(np.float64).tiny:
+        return "numbers near the end of the range have fewer digits: scale the mesh before it is written"
+    if largest / 16 > (used.max(axis=1) / 2 - used.min(axis=1) / 2).max():
+        return "the mesh is small against its distance from the origin: move it there before it is written"
+    return "edges are that short against the mesh: more digits in the file, or --weld TOL, which merges their ends"
+
+
+def rounding_of_K(
+    surface: Surface, edge_length: NDArray[np.float64], place: float, trusted: float
+) -> NDArray[np.float64]:
+    """(V,) how far K could be from that of the surface before its coordinates were rounded; 0 where nobody asks.
+
+    Ends that move by δ each turn an edge e by up to 2δ/|e|; δ = ½ √3 place. place: the unit in the last place of the
+    largest coordinate. Edges without length are left out. trusted: what may be ignored.
+    """
+    turn = np.divide(np.sqrt(3) * place, edge_length, where=edge_length > 0, out=np.zeros_like(edge_length))
+    if 2 * surface.degree.max() * turn.max() <= trusted:
+        return np.zeros(surface.n_vertices)
+    ends = np.concatenate([surface.edges.a, surface.edges.b])
+    return np.asarray(2 * np.bincount(ends, np.tile(turn, 2), minlength=surface.n_vertices), np.float64)

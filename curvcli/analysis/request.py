@@ -1,0 +1,126 @@
+"""Request: every option of an analysis that changes its numbers or their names, and the conventions it leads to."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..checks.listing import known_checks
+from ..curvatures.catalogue import at_scales, defaults, resolve
+from ..curvatures.engine import schedule
+from ..curvatures.quantity import AT_SCALE, CELL_AREAS
+from ..curvatures.registry import passes as registry
+from ..errors import UsageError
+from ..mesh.precision import precision
+from ..mesh.scale import DEFAULTS, Settings, parse_scales
+from ..mesh.surface import Orient, Surface
+
+Area = Literal["barycentric", "mixed", "voronoi"]
+Mean = Literal["sum", "average"]
+Normals = Literal["mesh", "file"]
+
+
+@dataclass(frozen=True)
+class Conventions:
+    """The choices that change numbers or their names; every output states them."""
+
+    mean: str = "sum"
+    area: str = "barycentric"
+    orient: str = "file"
+    weld: str = "none"
+    unit: str | None = None
+    regions: str | None = None
+    scale: str | None = None
+    normals: str | None = None
+    noise: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """The options of an analysis, as `curvcli.analyze` documents them.
+
+    Errors: UsageError for an option or a name that is not known.
+    """
+
+    passes: str | Iterable[str] | None = None
+    area: Area = "barycentric"
+    mean: Mean = "sum"
+    orient: Orient | None = None
+    weld: str | float = "auto"
+    unit: str | None = None
+    regions: str | os.PathLike[str] | NDArray[np.integer[Any]] | None = None
+    checks: str | Iterable[str] | None = None
+    rings: str | int | Iterable[str | int] | None = None
+    radius: str | float | Iterable[str | float] | None = None
+    normals: Normals = "mesh"
+    noise: float | None = None
+
+    def __post_init__(self) -> None:
+        known: dict[str, tuple[str, ...]] = {
+            "area": tuple(CELL_AREAS),
+            "mean": ("sum", "average"),
+            "orient": ("file", "outward"),
+            "normals": ("mesh", "file"),
+        }
+        for option, values in known.items():
+            value = getattr(self, option)
+            if value not in values and not (option == "orient" and value is None):
+                raise UsageError(f"{option} is {value!r}, expected one of {', '.join(values)}")
+
+    @cached_property
+    def settings(self) -> Settings:
+        """The scales, the normals and the noise of estimates."""
+        scales = parse_scales(self.rings, self.radius)
+        return Settings(scales or DEFAULTS.scales, self.normals, self.noise)
+
+    @cached_property
+    def chosen(self) -> list[str]:
+        """The columns: those named, or `core`, with `estimates` where a scale is given.
+
+        A name may give one of several scales: `K_fit@2e`.
+        """
+        named = self.passes
+        if named is None:
+            named = defaults(bool(parse_scales(self.rings, self.radius)), self.noise is not None)
+        names = [named] if isinstance(named, str) else list(named)
+        at_one = [name for name in names if AT_SCALE in name]
+        resolved = resolve(name for name in names if AT_SCALE not in name)
+        return list(dict.fromkeys([*at_scales(resolved, self.settings), *at_one]))
+
+    @cached_property
+    def named_checks(self) -> list[str] | None:
+        """The checks by name; None stands for those whose needs the chosen passes meet."""
+        return None if self.checks is None else known_checks(self.checks)
+
+    @property
+    def labels(self) -> str | NDArray[np.integer[Any]] | None:
+        """The source of the regions: a name, or labels."""
+        return os.fspath(self.regions) if isinstance(self.regions, os.PathLike) else self.regions
+
+    def conventions(self, surface: Surface) -> Conventions:
+        """The conventions of the numbers of a surface; an option that no chosen column depends on is None."""
+        plain = {name.partition(AT_SCALE)[0] for name in self.chosen}
+        scaled = any(registry.depends_on_scale(name) for name in plain)
+        used = {need for one in schedule(registry, plain, "barycentric") for need in one.needs}
+        settings = self.settings
+        noise = None
+        if "noise" in used:
+            noise = repr(precision(surface) if settings.noise is None else settings.noise)
+        labels = self.labels
+        return Conventions(
+            self.mean,
+            self.area,
+            surface.orient,
+            surface.file.weld if surface.file else "none",
+            self.unit,
+            labels if labels is None or isinstance(labels, str) else "array",
+            ",".join(scale.name for scale in settings.scales) if scaled else None,
+            settings.normals if "normals" in used else None,
+            noise,
+        )

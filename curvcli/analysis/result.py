@@ -1,0 +1,229 @@
+"""Result: the columns, totals, checks and notices of one surface."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..checks import Check, rules
+from ..checks.listing import summarised
+from ..curvatures.catalogue import at_scales
+from ..curvatures.engine import evaluate, prepare, presented, schedule
+from ..curvatures.quantity import AT_SCALE, Element, Quantity
+from ..curvatures.registry import passes
+from ..errors import Notice
+from ..loading.labels import Regions, cut_apart, find_regions
+from ..loading.labels import findings as region_findings
+from ..loading.load import as_surface
+from ..mesh.groups import Groups
+from ..mesh.scale import DEFAULTS
+from ..mesh.surface import Surface
+from ..support.arrays import or_none
+from . import notices as findings
+from .columns import Columns, named
+from .request import Request
+from .resolution import beside, of_stars
+from .totals import lost, lost_totals, summed, totals
+
+if TYPE_CHECKING:
+    from .configuration import Configuration
+
+Array = NDArray[Any]
+
+# Checks of components and regions are listed one by one up to this many; beyond, those that fail.
+LISTED_GROUPS = 100
+
+# What the report's statistics and the default check need whatever is asked for.
+_ALWAYS = ("status", "degree", "star_area", "star_vector", "face_area", "degenerate_face", "K", "kappa_g")
+
+
+class Result:
+    """Everything computed of one surface: `vertices`, `edges`, `faces`, `totals`, `checks`, `notices`.
+
+    Columns are in the file's unit of length and in the chosen convention for H; NaN is undefined.
+    """
+
+    def __init__(
+        self,
+        surface: Surface,
+        request: Request,
+        regions: Regions | None = None,
+        checks: Iterable[str] | None = None,
+    ) -> None:
+        self.surface, self.request, self.regions = surface, request, regions
+        self.chosen, self.settings, self.conventions = request.chosen, request.settings, request.conventions(surface)
+        self.timings: dict[str, float] = {}
+        self.extra_notices: list[Notice] = []
+        self.configuration: Configuration | None = None
+        self._rules = self._applicable_rules() if checks is None else [rules[name] for name in checks]
+        wanted = {
+            *self.chosen,
+            *_ALWAYS,
+            *self._totalled,
+            *self._flags,
+            *beside(self.chosen),
+            *(need for rule in self._rules for need in rule.needs),
+        }
+        prepare(passes, surface, wanted, request.area)
+        self.columns = evaluate(passes, surface, wanted, area=request.area, settings=self.settings)
+        self._later: dict[str, Array] = {}
+        self._shown: dict[str, Array] = {}
+        self._named: dict[Element, dict[str, tuple[Quantity, int | None]]] = {}
+        self.cut: Result | None = None
+        if regions is not None:
+            cut, self.cut_groups = cut_apart(surface, regions)
+            self.cut = Result(cut, replace(request, regions=None), checks=[rule.name for rule in self._rules])
+
+    @cached_property
+    def _closure(self) -> set[str]:
+        """Every quantity that is computed on the way to the chosen ones."""
+        plain = (name.partition(AT_SCALE)[0] for name in self.chosen)
+        order = schedule(passes, [*plain, *_ALWAYS], self.request.area)
+        return {quantity.name for one in order for quantity in one.provides}
+
+    @cached_property
+    def _totalled(self) -> list[str]:
+        """What is summed: of several scales, that of each for which the column itself is chosen."""
+        scaled = [name for name in self.chosen if AT_SCALE in name]
+        plain = [name for name in self._closure if not (scaled and passes.depends_on_scale(name))]
+        return [quantity.name for quantity in summed([*plain, *scaled])]
+
+    @cached_property
+    def _flags(self) -> list[str]:
+        """Hidden flags on the way to the chosen columns: what they mark is reported."""
+        flags = (name for name in self._closure if passes.quantity(name).kind == "flag")
+        return at_scales(flags, self.settings)
+
+    def _applicable_rules(self) -> list[Any]:
+        """Checks whose needs the chosen passes meet."""
+        return [rule for rule in rules.values() if self._closure.issuperset(rule.needs)]
+
+    # ------------------------------------------------------------------ columns
+
+    def column(self, name: str) -> Array:
+        """One column as a user sees it: (n,), (n, 3), or strings for labels."""
+        return presented(passes.quantity(name), self._column(name), self.surface, self.request.mean)
+
+    def shown(self, name: str) -> Array:
+        """The same, kept for whoever asks again."""
+        if name not in self._shown:
+            self._shown[name] = self.column(name)
+        return self._shown[name]
+
+    def _column(self, name: str) -> Array:
+        """A column as computed; those of a table asked for later are kept apart, so that no report depends on it."""
+        if name not in self.columns and name not in self._later:
+            known = {**self.columns, **self._later}
+            area, settings = self.request.area, self.settings
+            self._later = evaluate(passes, self.surface, [name], area=area, settings=settings, known=known)
+        return self.columns[name] if name in self.columns else self._later[name]
+
+    @property
+    def vertices(self) -> Columns:
+        """Vertex columns by name."""
+        return self._columns_of("vertex")
+
+    @property
+    def edges(self) -> Columns:
+        """Edge columns by name."""
+        return self._columns_of("edge")
+
+    @property
+    def faces(self) -> Columns:
+        """Face columns by name."""
+        return self._columns_of("face")
+
+    def _columns_of(self, element: Element) -> Columns:
+        """Columns refer to their analysis, so that it must not keep them: a circle would hold its memory."""
+        if element not in self._named:
+            self._named[element] = named(self, element)
+        return Columns(self, self._named[element])
+
+    # ------------------------------------------------------------------ integrals
+
+    def totals_of(self, groups: Groups) -> dict[str, NDArray[np.float64]]:
+        """Totals of each group, (G,) or (G, 3); NaN where undefined."""
+        return totals(self.surface, groups, self.columns, self.request.mean)
+
+    @cached_property
+    def totals(self) -> dict[str, float | list[float] | None]:
+        """Totals of the whole surface by the report's keys; None where undefined."""
+        return {key: plain(values[0]) for key, values in self.totals_of(self.surface.whole).items()}
+
+    @cached_property
+    def checks(self) -> list[Check]:
+        """Every identity that the chosen passes allow to be tested, on the whole and on each component."""
+        found = [check for rule in self._rules for check in rule.run(self.surface, self.surface.whole, self.columns)]
+        if self.surface.components.count > 1:
+            found += self._checked(self.surface.components)
+        if self.cut is not None:
+            found += self.cut._checked(self.cut_groups)
+        return found
+
+    def _checked(self, groups: Groups) -> list[Check]:
+        """The checks of every group, or of those that fail where there are very many."""
+        found: list[Check] = []
+        for rule in self._rules:
+            each = rule.run(self.surface, groups, self.columns)
+            found += each if groups.count <= LISTED_GROUPS else summarised(each, f"{groups.kind}s")
+        return found
+
+    @property
+    def passed(self) -> bool:
+        """Whether no check failed."""
+        return not any(check.status == "fail" for check in self.checks)
+
+    @property
+    def notices(self) -> list[Notice]:
+        """What was accepted but should be said: the loader's notices and the surface's defects."""
+        return [*self.surface.notices, *self._findings, *self.extra_notices]
+
+    @cached_property
+    def _findings(self) -> list[Notice]:
+        found = findings.of_surface(self.surface, self.columns)
+        asked = self.settings.scales != DEFAULTS.scales
+        found += of_stars(self.surface, self.columns, self.chosen, self.totals, asked)
+        found += findings.out_of_range(self._lost)
+        if self.cut is not None and self.regions is not None:
+            found += region_findings(self.cut.surface, self.cut_groups, self.regions)
+        return found
+
+    @property
+    def _lost(self) -> Counter[str]:
+        """How many values of each chosen column and total no double holds in the file's unit."""
+        found: Counter[str] = Counter()
+        if self.surface.unit_exponent:
+            for quantity in map(passes.quantity, self.chosen):
+                if not quantity.labels:
+                    values = self.columns[quantity.name]
+                    found[quantity.stem] += lost(self.surface, values, quantity.length_exponent)
+            found.update(lost_totals(self.surface, self.columns))
+        return found
+
+
+def plain(value: Any) -> Any:
+    """A number or a vector for JSON, None where undefined."""
+    if np.ndim(value):
+        return [plain(x) for x in value] if np.isfinite(value).any() else None
+    return or_none(float(value))
+
+
+Kind = TypeVar("Kind", bound=Result)
+
+
+def compute(given: Any, request: Request, kind: type[Kind]) -> Kind:
+    """The result for a surface, a path, a mesh object or a pair (points, faces), as the given kind of `Result`.
+
+    Errors: those of `curvcli.analyze`.
+    """
+    _ = request.chosen  # an unknown name is refused before a mesh is read
+    surface = as_surface(given, orient=request.orient, weld=request.weld, normals=request.normals)
+    labels = request.labels
+    checks = request.named_checks
+    return kind(surface, request, None if labels is None else find_regions(surface, labels), checks)

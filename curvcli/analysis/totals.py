@@ -1,0 +1,72 @@
+"""Integrals over the whole surface and its groups."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..curvatures.quantity import AT_SCALE, Quantity
+from ..curvatures.registry import passes
+from ..mesh.counts import census
+from ..mesh.enclosed import volumes
+from ..mesh.groups import Groups, Segments
+from ..mesh.surface import Surface
+
+Floats = NDArray[np.float64]
+
+
+def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: str = "sum") -> dict[str, Floats]:
+    """Every total that the given columns provide, (G,) or (G, 3), in the file's unit and the chosen convention for H.
+
+    What is odd under reversal of the orientation is NaN on groups that have none; nulls in a column are left out.
+    """
+    found: dict[str, Floats] = {}
+    for key, total, length_exponent, mean_degree in _computed(surface, groups, columns):
+        shown = surface.in_file_unit(total, length_exponent)
+        found[key] = shown * 0.5**mean_degree if mean == "average" else shown
+    return found
+
+
+def lost_totals(surface: Surface, columns: Mapping[str, Any]) -> list[str]:
+    """Keys of the totals of the whole surface that are defined, but beyond the range of doubles in the file's unit."""
+    if not surface.unit_exponent:
+        return []
+    each = _computed(surface, surface.whole, columns)
+    return [key for key, total, length_exponent, _ in each if lost(surface, total, length_exponent)]
+
+
+def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
+    """How many values are defined, but beyond the range of doubles in the file's unit."""
+    if not surface.unit_exponent * length_exponent:
+        return 0
+    return int(np.count_nonzero(np.isnan(surface.in_file_unit(values, length_exponent)) & ~np.isnan(values)))
+
+
+def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> Iterator[tuple[str, Floats, int, int]]:
+    """Key, values in the unit of computation, length exponent and degree in H of every total."""
+    orientable = census(surface, groups).orientable
+    for quantity in summed(columns):
+        total = _sum(groups.of(surface, quantity.on), quantity, columns[quantity.name])
+        if quantity.parity == "odd":
+            total = np.where(orientable if total.ndim == 1 else orientable[:, None], total, np.nan)
+        if total.ndim == 1 and passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0]):
+            known = groups.of(surface, quantity.on).count_true(~np.isnan(columns[quantity.name]))
+            total = np.where(known > 0, total, np.nan)  # no estimate anywhere is no energy of 0
+        yield str(quantity.total), total, quantity.length_exponent, quantity.mean_degree
+        if quantity.total == "area":
+            yield "volume", volumes(surface, groups), 3, 0
+
+
+def summed(names: Collection[str]) -> list[Quantity]:
+    """Those of the named quantities that have a total, in the order of the report; of several scales each its own."""
+    at: dict[str, list[str]] = {}
+    for name in names:
+        at.setdefault(name.partition(AT_SCALE)[0], []).append(name)
+    return [passes.quantity(name) for quantity in passes.totals() for name in at.get(quantity.name, ())]
+
+
+def _sum(segments: Segments, quantity: Quantity, column: Any) -> Floats:
+    return np.stack([segments.sum(x) for x in column], axis=1) if quantity.vector else segments.sum(column)

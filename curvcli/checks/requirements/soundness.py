@@ -1,0 +1,52 @@
+"""What a file should be free of."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...mesh.counts import duplicate_faces, duplicate_vertices
+from ...mesh.surface import Surface
+from ...mesh.walls import told
+from ...support.arrays import Flags
+from ...support.words import counted
+from .base import requirement
+from .wording import explained, faces, joined, located, vertices
+
+# Faces that the reader or the surface dropped, which no later count sees.
+_DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
+
+
+@requirement("no-degenerate", remedy="`--weld exact` drops faces with two corners at one place; remesh the others")
+def no_degenerate(surface: Surface, degenerate_face: Flags) -> str:
+    """Every face has an area, and none had to be dropped."""
+    dropped = [
+        located(notice.count, f"face {what}", f"faces {what}", f"face {notice.examples[0]}")
+        if notice.examples
+        else counted(notice.count, f"face {what}", f"faces {what}")
+        for notice in surface.notices
+        if (what := _DROPPED.get(notice.code))
+    ]
+    return joined(faces(surface, np.flatnonzero(degenerate_face), "without area"), *dropped)
+
+
+@requirement("no-duplicate-faces", remedy="remove the later of each two: both add to areas and angles")
+def no_duplicate_faces(surface: Surface) -> str:
+    """No two faces have the same corners."""
+    found = faces(surface, duplicate_faces(surface), "with the corners of an earlier one")
+    return explained(found, told(surface))
+
+
+@requirement("no-unreferenced", remedy="remove them from the file; they change no value")
+def no_unreferenced(surface: Surface) -> str:
+    """Every vertex belongs to a face."""
+    loose = ~surface.referenced
+    if surface.file is not None and surface.file.welded_to is not None:
+        loose &= surface.file.welded_to < 0
+    return vertices(np.flatnonzero(loose), "that no face uses", "that no face uses")
+
+
+@requirement("no-duplicate-vertices", remedy="`--weld exact` merges them")
+def no_duplicate_vertices(surface: Surface) -> str:
+    """No two vertices of faces are at the same position."""
+    twice = duplicate_vertices(surface)
+    return vertices(twice, "at the position of an earlier one", "at the position of an earlier one")

@@ -1,0 +1,148 @@
+"""What hangs together how: boundary, manifoldness, orientation, pieces and handles."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...mesh.bodies import taken_apart
+from ...mesh.counts import census, classify
+from ...mesh.seams import way_to_close
+from ...mesh.solids.notices import kinds
+from ...mesh.surface import Surface
+from ...mesh.walls import told
+from .base import requirement
+from .wording import edges, explained, face_name, joined, located, vertices
+
+
+@requirement(
+    "closed",
+    remedy="fill the holes; where positions repeat, `--weld exact` or a tolerance may close the seams",
+)
+def closed(surface: Surface) -> str:
+    """No edge has only one face."""
+    found = edges(surface, surface.boundary_edges, "with only one face")
+    return explained(found, way_to_close(surface) if found else "")
+
+
+@requirement(
+    "manifold",
+    remedy="part the surface where more than two faces meet, give each fan that only touches a vertex of its "
+    "own; `--table edges=PATH` lists the edges",
+)
+def manifold(surface: Surface) -> str:
+    """Every edge has at most two faces and every star is one fan."""
+    split = np.flatnonzero(surface.split_stars)
+    found = joined(
+        edges(surface, surface.nonmanifold_edges, "with more than two faces"),
+        vertices(split, "whose star is not one fan", "whose stars are not one fan"),
+    )
+    return explained(found, told(surface))
+
+
+@requirement(
+    "oriented",
+    remedy="a one-sided surface has no orientation: cut it open, or look for a face that joins two sides",
+)
+def oriented(surface: Surface) -> str:
+    """Every patch has an orientation, whether or not the file winds it so."""
+    lost = ~surface.orientation.orientable
+    faces = np.flatnonzero(lost[surface.orientation.patch])
+    patches = int(np.count_nonzero(lost))
+    first = face_name(surface, faces[0]) if len(faces) else ""
+    return located(patches, "patch without an orientation", "patches without an orientation", first) if patches else ""
+
+
+@requirement(
+    "consistent-winding",
+    remedy="turn the faces in the file; the computation turns them for itself and says how many",
+)
+def consistent_winding(surface: Surface) -> str:
+    """Neighbouring faces run along their common edge opposite ways."""
+    return edges(surface, surface.winding_conflicts, "along which both faces run the same way")
+
+
+@requirement(
+    "outward",
+    remedy="reverse all faces of the patch named, or analyse with `--orient outward`; unite bodies that cross",
+)
+def outward(surface: Surface) -> str:
+    """Bodies have a positive volume and cavities a negative one as the file winds them; no two closed patches cross."""
+    apart = taken_apart(surface)
+    if not apart.solids.count:
+        return "no patch is closed and orientable, so that none has an outside"
+    return joined(_inside_out(surface, apart), _crossing(surface, apart))
+
+
+def _inside_out(surface: Surface, apart: Surface) -> str:
+    """Bodies and cavities of the wrong sign. apart: the surface with each body on its own vertices."""
+    solids = apart.solids
+    turned = np.flatnonzero(solids.inside_out)
+    if not len(turned):
+        return ""
+    first = face_name(surface, solids.first_face[turned[0]])
+    found = located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
+    if len(turned) > 1:
+        return f"{found}: {kinds(apart, turned)}"
+    return f"{found}: a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
+
+
+def _crossing(surface: Surface, apart: Surface) -> str:
+    """Bodies that cross."""
+    solids = apart.solids
+    if not len(solids.crossing):
+        return ""
+    some = [[face_name(surface, solids.first_face[patch]) for patch in pair] for pair in solids.crossing[:3]]
+    more = len(solids.crossing) - len(some)
+    listed = ", ".join(" and ".join(pair) for pair in some) + (f", {more:,} more" if more else "")
+    patches = len(np.unique(solids.crossing))
+    return f"{patches:,} closed patches cross or coincide ({listed}): they have no depth and are kept as wound"
+
+
+@requirement("connected", remedy="remove loose parts; `--table components=PATH` lists them")
+def connected(surface: Surface) -> str:
+    """There is one component."""
+    return components(surface, 1)
+
+
+@requirement(
+    "genus",
+    "N",
+    remedy="look for a handle or a hole nobody wanted; `--table components=PATH` has χ and loops of each part",
+)
+def genus(surface: Surface, wanted: float) -> str:
+    """The genus, summed over the components, is N."""
+    found = float(classify(surface, surface.whole).genus[0])
+    if math.isnan(found):
+        why = manifold(surface) or oriented(surface)
+        return f"the genus is undefined, expected {wanted}: {why}"
+    return "" if found == wanted else f"the genus is {round(found)}, expected {wanted}"
+
+
+@requirement(
+    "euler",
+    "N",
+    remedy="look for a handle, a hole or a part nobody wanted; `--table components=PATH` has χ of each part",
+)
+def euler(surface: Surface, wanted: float) -> str:
+    """The Euler characteristic V − E + F is N."""
+    counts = census(surface, surface.whole)
+    found = int(counts.euler_characteristic[0])
+    return "" if found == wanted else f"χ = {found}, expected {wanted}"
+
+
+@requirement(
+    "components",
+    "N",
+    remedy="remove loose parts or join what belongs together; `--table components=PATH` lists them",
+)
+def components(surface: Surface, wanted: float) -> str:
+    """There are N components."""
+    found = surface.components.count
+    if found == wanted:
+        return ""
+    if found == 1:
+        return f"1 component, expected {wanted}"
+    second = face_name(surface, np.flatnonzero(surface.components.face == 1)[0])
+    return f"{found:,} components, expected {wanted} (the second starts at {second})"

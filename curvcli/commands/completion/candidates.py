@@ -1,0 +1,172 @@
+"""What the shell is offered for a parameter: files, folders, or names that belong there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from copy import copy
+
+import click
+from click.shell_completion import CompletionItem
+
+Known = Callable[[], Iterable[str]]
+
+
+class Names(click.ParamType[str]):
+    """Names of which only the program knows; the last of a comma list is completed.
+
+    files: whether files may stand there too, or behind the `=` of a name that ends with one.
+    """
+
+    name = "text"
+
+    def __init__(self, known: Known, files: bool = False) -> None:
+        self.known, self.files = known, files
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
+        """Those that begin as what was typed."""
+        _, equals, behind = incomplete.rpartition("=")
+        if equals:
+            return [CompletionItem(behind, type="file")] if self.files else []
+        before, comma, last = incomplete.rpartition(",")
+        found = [CompletionItem(f"{before}{comma}{name}") for name in self.known() if name.startswith(last)]
+        return found or ([CompletionItem(incomplete, type="file")] if self.files else [])
+
+
+def _passes() -> list[str]:
+    from ...curvatures.catalogue import presets
+    from ...curvatures.registry import passes
+
+    return [*presets(), *(quantity.name for quantity in passes.quantities("vertex"))]
+
+
+def _quantities() -> list[str]:
+    from ...report.quantities import public
+
+    return [quantity.name for quantity in public()]
+
+
+def _columns() -> list[str]:
+    from ...curvatures.catalogue import load_passes
+    from ...curvatures.registry import passes
+
+    load_passes()
+    return [column for quantity in passes.quantities("vertex") for column in quantity.columns]
+
+
+def _requirements() -> list[str]:
+    from ...checks.requirements import kinds
+
+    return [f"{kind.name}=" if kind.number else kind.name for kind in kinds.values()]
+
+
+def _allowed() -> list[str]:
+    from ...checks import rules
+    from ...checks.requirements import DEFAULT
+    from ...curvatures.catalogue import load_passes
+
+    load_passes()
+    return [*DEFAULT, *rules]
+
+
+def _samples() -> Iterable[str]:
+    from ...samples.catalogue import names
+
+    return names()
+
+
+def _tables() -> list[str]:
+    from ...output.tables.columns import TABLES
+
+    return [f"{kind}=" for kind in TABLES]
+
+
+def _tables_of_maps() -> list[str]:
+    from ..compare import TABLES
+
+    return [f"{kind}=" for kind in TABLES]
+
+
+def _tables_of_curves() -> list[str]:
+    from ..curves import TABLES
+
+    return [f"{kind}=" for kind in TABLES]
+
+
+def _parameters() -> Iterable[str]:
+    from ...samples.catalogue import specs
+
+    # Of all samples: while an option waits for its value, click has not read the arguments yet.
+    return dict.fromkeys(f"{parameter.name}=" for spec in specs() for parameter in spec.parameters)
+
+
+def _formats() -> list[str]:
+    from ...output.formats import suffixes
+
+    return [suffix[1:] for suffix in suffixes(("table", "mesh", "report", "page", "picture"))]
+
+
+def _plain_formats() -> list[str]:
+    from ...output.formats import suffixes
+
+    return [suffix[1:] for suffix in suffixes(("table", "report"))]
+
+
+def _sample_formats() -> list[str]:
+    from ...output.formats import suffixes
+
+    return [suffix[1:] for suffix in suffixes(("table", "mesh", "triangles"))]
+
+
+def _topics() -> list[str]:
+    from ..names import COMMANDS
+    from ..topics import TOPICS
+
+    return [*TOPICS, *COMMANDS]
+
+
+# What is known of a parameter, in one command or in all.
+_KNOWN: dict[tuple[str, str], Known] = {
+    ("*", "passes"): _passes,
+    ("*", "color_by"): _columns,
+    ("analyze", "stream_format"): _formats,
+    ("analyze", "tables"): _tables,
+    ("batch", "save"): _formats,
+    ("check", "allow"): _allowed,
+    ("check", "require"): _requirements,
+    ("compare", "stream_format"): _plain_formats,
+    ("compare", "tables"): _tables_of_maps,
+    ("curves", "stream_format"): _plain_formats,
+    ("curves", "tables"): _tables_of_curves,
+    ("help", "topic"): _topics,
+    ("passes", "name"): _quantities,
+    ("sample", "name"): _samples,
+    ("sample", "settings"): _parameters,
+    ("sample", "stream_format"): _sample_formats,
+}
+
+_FILES = ("MESH", "FILE", "PATH", "PATTERN", "LIST", "A", "B")
+
+
+def completing(command: click.Command) -> click.Command:
+    """A copy of the command whose parameters know what may stand there; what it runs with stays plain text."""
+    command = copy(command)
+    command.params = [copy(param) for param in command.params]
+    for param in command.params:
+        if isinstance(param.type, click.types.StringParamType) and param.name is not None:
+            param.type = _type(command.name or "", param.name, param.metavar or "")
+    return command
+
+
+def _type(command: str, name: str, metavar: str) -> click.ParamType[str]:
+    """By what is known of it, or by its metavar: names of files in capitals, and words as they are typed."""
+    known = _KNOWN.get((command, name)) or _KNOWN.get(("*", name))
+    if known is not None:
+        return Names(known, files=name == "tables")
+    choices = metavar.rstrip(".").split("|")
+    if choices[0] == "DIR":
+        return click.Path(file_okay=False)
+    words = [word for word in choices if word.islower() and word.isalpha()]
+    files = choices[0] in _FILES
+    if words:
+        return Names(lambda: words, files)
+    return click.Path() if files else click.STRING

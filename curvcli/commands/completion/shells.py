@@ -1,0 +1,140 @@
+"""Where each shell looks for completions, and the lines in its start-up file where it does not look by itself."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from shlex import quote
+
+from ...errors import OutputError, UsageError
+from ...output.atomic import Outputs
+
+SHELLS = ("bash", "zsh", "fish")
+
+# A block between these lines is ours; nothing else of a start-up file is touched.
+_BEGIN, _END = "# >>> curvcli completion >>>", "# <<< curvcli completion <<<"
+
+
+@dataclass(frozen=True)
+class Shell:
+    """script: the file that teaches the shell. start_up: the file that loads it, with the lines it needs for that."""
+
+    name: str
+    script: str
+    start_up: str | None = None
+    lines: tuple[str, ...] = ()
+
+    @property
+    def block(self) -> str:
+        """What stands in the start-up file; the blank line before it ends a continued one."""
+        return "\n".join(["", _BEGIN, *self.lines, _END, ""])
+
+
+def shell(name: str | None) -> Shell:
+    """The shell of that name, or of $SHELL.
+
+    Errors: UsageError for one that is not known.
+    """
+    found = name or os.path.basename(os.environ.get("SHELL", ""))
+    if found not in SHELLS:
+        what = f"$SHELL is {os.environ.get('SHELL', '')!r}"
+        raise UsageError(
+            f"{what}: expected one of {', '.join(SHELLS)}; name the shell, as in `completion install bash`"
+        )
+    home = os.path.abspath(os.path.expanduser("~"))
+    data = os.environ.get("XDG_DATA_HOME") or os.path.join(home, ".local", "share")
+    if found == "fish":
+        config = os.environ.get("XDG_CONFIG_HOME") or os.path.join(home, ".config")
+        return Shell(found, os.path.join(config, "fish", "completions", "curvcli.fish"))
+    script = os.path.join(data, "curvcli", f"completion.{found}")
+    load = f"if [ -r {quote(script)} ]; then . {quote(script)}; fi"
+    if found == "bash":
+        return Shell(found, script, os.path.join(home, ".bashrc"), (load,))
+    folder = os.environ.get("ZDOTDIR") or home
+    ready = "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit; }"
+    return Shell(found, script, os.path.join(folder, ".zshrc"), (ready, load))
+
+
+def source(name: str) -> str:
+    """The script of a shell."""
+    from ..main import cli
+    from ..names import COMPLETE
+    from .scripts import ASKING
+
+    made = ASKING[name](cli, {}, "curvcli", COMPLETE)
+    return made.source_template % made.source_vars()
+
+
+def install(one: Shell) -> list[tuple[str, bool]]:
+    """Write the script and the block that loads it; each file with whether it had to change.
+
+    Errors: OutputError for a file that cannot be read or written; it is then as it was.
+    """
+    files = [(one.script, source(one.name).encode())]
+    if one.start_up is not None:
+        files.append((one.start_up, _with_block(_read(one.start_up) or b"", one)))
+    return [(path, _write(path, content)) for path, content in files]
+
+
+def remove(one: Shell) -> list[tuple[str, bool]]:
+    """Take away what `install` wrote; each file with whether it had to change."""
+    found = [(one.script, _delete(one.script))]
+    if one.start_up is not None:
+        before = _read(one.start_up)
+        found.append((one.start_up, before is not None and _write(one.start_up, _without_block(before, one))))
+    return found
+
+
+def _with_block(content: bytes, one: Shell) -> bytes:
+    rest = _without_block(content, one)
+    if rest != content and content == rest + one.block.encode():
+        return content
+    return rest + (b"" if not rest or rest.endswith(b"\n") else b"\n") + one.block.encode()
+
+
+def _without_block(content: bytes, one: Shell) -> bytes:
+    """The file without our block; a block that somebody tore apart is left alone.
+
+    Errors: OutputError for a block without its last line.
+    """
+    begin, end = f"\n{_BEGIN}\n".encode(), f"\n{_END}\n".encode()
+    start = content.find(begin)
+    if start < 0:
+        return content
+    stop = content.find(end, start)
+    if stop < 0:
+        raise OutputError(f"{one.start_up}: the line `{_END}` is missing after `{_BEGIN}`; remove that block by hand")
+    return content[:start] + content[stop + len(end) :]
+
+
+def _read(path: str) -> bytes | None:
+    try:
+        with open(path, "rb") as stream:
+            return stream.read()
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def _write(path: str, content: bytes) -> bool:
+    """Replace a file in one step, following links and keeping its mode; whether it had to change."""
+    if _read(path) == content:
+        return False
+    try:
+        os.makedirs(os.path.dirname(os.path.realpath(path)), exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror}") from None
+    with Outputs([path], force=True) as outputs, outputs.open(path) as stream:
+        stream.write(content)
+    return True
+
+
+def _delete(path: str) -> bool:
+    try:
+        os.unlink(path)
+    except FileNotFoundError:
+        return False
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be removed: {error.strerror}") from None
+    return True

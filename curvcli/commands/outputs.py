@@ -1,0 +1,100 @@
+"""Which streams and outputs a command reads and writes, from its meshes, -o, --table, --format, --json and --get."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import click
+from click.core import ParameterSource
+
+from ..errors import UsageError
+from ..support.words import suggestion
+
+if TYPE_CHECKING:
+    from ..output.formats import Format, Kind
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """path: `-` is stdout. kind: `report`, or the name of a table. suffix: of its format."""
+
+    path: str
+    kind: str
+    suffix: str
+
+
+def table_option(text: str, known: Collection[str]) -> tuple[str, str]:
+    """The kind and the path of --table KIND=PATH.
+
+    Errors: UsageError for an unknown kind, with those there are.
+    """
+    kind, equals, path = text.partition("=")
+    if not equals or not path:
+        raise UsageError(f"--table {text}: expected KIND=PATH with KIND one of {', '.join(known)}")
+    if kind not in known:
+        raise UsageError(f"--table {text}: there is no table {kind!r}{suggestion(kind, known)}")
+    return kind, path
+
+
+def tables_and_reports(
+    outputs: tuple[str, ...], tables: tuple[str, ...], known: Collection[str], stream_format: str | None
+) -> list[Wanted]:
+    """Every output of a command that writes tables and a report; -o writes the table of vertices.
+
+    known: the kinds of tables. Errors: UsageError for a suffix or a kind that is not known.
+    """
+    from ..output.formats import format_of
+
+    def named(path: str, *kinds: Kind) -> Format:
+        return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)
+
+    found = []
+    for path in outputs:
+        one = named(path, "table", "report")
+        found.append(Wanted(path, "vertices" if one.kind == "table" else "report", one.suffix))
+    for text in tables:
+        kind, path = table_option(text, known)
+        found.append(Wanted(path, kind, named(path, "table").suffix))
+    return found
+
+
+def one_stdout(paths: Iterable[str], as_json: bool, get: tuple[str, ...], stream_format: str | None) -> bool:
+    """Whether an output goes to stdout.
+
+    Errors: click.UsageError when two things want stdout, or a format is typed for an output that is not there.
+    """
+    context = click.get_current_context()
+    taken = "-" in paths
+    if as_json and get:
+        raise click.UsageError("--json and --get both want stdout; choose one", context)
+    if taken and (as_json or get):
+        raise click.UsageError("-o - and --json or --get both want stdout; choose one", context)
+    if not taken and context.get_parameter_source("stream_format") is ParameterSource.COMMANDLINE:
+        raise click.UsageError(f"--format {stream_format} names the format of `-o -`, which is not given", context)
+    return taken
+
+
+def stdin_once(meshes: Sequence[str]) -> None:
+    """Errors: click.UsageError where `-` stands for several meshes: what has been read is gone."""
+    if meshes.count("-") > 1:
+        raise click.UsageError("`-` is given twice, but stdin can be read once only", click.get_current_context())
+
+
+def tell(
+    report: Callable[[], Any], summary: Callable[[], None], as_json: bool, get: tuple[str, ...], quiet: bool
+) -> None:
+    """What goes to stdout: the report as plain values, some values of it, or else the summary, which prints itself."""
+    if as_json:
+        from ..report.model import encode
+
+        sys.stdout.buffer.write(encode(report()))
+    elif get:
+        from ..report.lookup import look_up
+
+        found = report()
+        click.echo("\n".join([look_up(found, key) for key in get]))
+    elif not quiet:
+        summary()

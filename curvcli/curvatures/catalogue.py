@@ -1,0 +1,125 @@
+"""The catalogue of passes: built-ins, plug-ins, presets, and the order of the table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cache
+from importlib import import_module
+
+from ..errors import UsageError
+from ..mesh.scale import Settings
+from ..support.words import suggestion
+from .quantity import AT_SCALE, Quantity
+from .registry import Registry, passes
+
+# The built-in passes, one idea a file: a pass may need only what an earlier file provides.
+BUILT_IN = (
+    "star",
+    "status",
+    "angle_defect",
+    "mean",
+    "faces",
+    "edges",
+    "absolute",
+    "directions",
+    "areas",
+    "delaunay",
+    "densities",
+    "principal",
+    "willmore",
+    "conformal",
+    "dirichlet",
+    "averaged",
+    "vertex_normals",
+    "corrected",
+    "fits",
+    "at_scale",
+    "uncertainty",
+)
+
+# The default preset, in the order of the table.
+CORE = (
+    *("status", "degree", "K", "kappa_g", "A", "A_vec", "H_vec", "h", "h_signed", "K_density"),
+    *("kappa_1", "kappa_2", "willmore", "willmore_hks"),
+)
+
+
+# What noise of the coordinates makes of K and h.
+UNCERTAINTIES = ("K_sigma", "h_sigma")
+
+
+def defaults(scaled: bool, noisy: bool) -> tuple[str, ...]:
+    """What is computed where nothing is named: core, estimates where a scale is asked for, uncertainties with noise."""
+    return ("core", *(("estimates",) if scaled else ()), *(UNCERTAINTIES if noisy else ()))
+
+
+def presets() -> dict[str, Sequence[str]]:
+    """The quantities that each preset stands for."""
+    load_passes()
+    public = passes.quantities()
+    return {
+        "topology": ["status", "degree"],
+        "core": CORE,
+        "paper": [q.name for q in public if q.source.startswith("Sullivan")],
+        "estimates": [q.name for q in public if _estimates(q)],
+        "all": [q.name for q in public],
+    }
+
+
+def _estimates(quantity: Quantity) -> bool:
+    """Whether it is a curvature, a shape index or an energy at a scale; directions and conditions are none."""
+    return (quantity.kind in ("density", "measure") or quantity.signed) and passes.depends_on_scale(quantity.name)
+
+
+def resolve(names: Iterable[str]) -> list[str]:
+    """Quantity names for what a user asked for: names, stems of vectors, comma lists and presets, in table order.
+
+    Errors: UsageError for an unknown name, with the nearest ones.
+    """
+    named = presets()
+    public = {quantity.name: quantity for quantity in passes.quantities()}
+    stems = {column: q.name for q in reversed(public.values()) for column in (q.stem, *q.columns)}
+    wanted: set[str] = set()
+    for name in (part.strip() for entry in names for part in entry.split(",")):
+        if name in named:
+            wanted.update(named[name])
+        elif name in public or name in stems:
+            wanted.add(stems.get(name, name))
+        else:
+            way_out = suggestion(name, [*named, *public], "`curvcli passes` lists them")
+            raise UsageError(f"unknown pass {name!r}{way_out}")
+    return [name for name in public if name in wanted]
+
+
+def at_scales(names: Iterable[str], settings: Settings) -> list[str]:
+    """The names, those that depend on the scale once for each where there are several: `K_ring@2e`."""
+    load_passes()
+    if len(settings.scales) == 1:
+        return list(names)
+    each = [AT_SCALE + scale.name for scale in settings.scales]
+    return [name + scale for name in names for scale in (each if passes.depends_on_scale(name) else [""])]
+
+
+@cache
+def load_passes() -> None:
+    """Import the built-in passes and the plug-ins of the entry-point group `curvcli.passes`, once.
+
+    Errors: UsageError for a plug-in that cannot be imported or whose declaration does not fit.
+    """
+    from importlib.metadata import entry_points
+
+    for name in BUILT_IN:
+        import_module(f".{name}", __package__)
+
+    for plug_in in entry_points(group="curvcli.passes"):
+        try:
+            plug_in.load()
+        except Exception as error:
+            where = f"plug-in {plug_in.name} ({plug_in.value})"
+            raise UsageError(f"{where} cannot be loaded: {type(error).__name__}: {error}") from error
+
+
+def loaded() -> Registry:
+    """All passes, built-ins and plug-ins."""
+    load_passes()
+    return passes

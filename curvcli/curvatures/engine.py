@@ -1,0 +1,194 @@
+"""From the names asked for to the columns: what must run, in which order, and what can be let go."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import replace
+from graphlib import TopologicalSorter
+from itertools import groupby
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.neighbourhoods import forget
+from ..mesh.scale import DEFAULTS, Settings
+from ..mesh.sheets import on_single_fans, sheets
+from ..mesh.surface import Surface
+from ..support.blocks import for_each, slices
+from .quantity import AT_SCALE, CELL_AREA, CELL_AREAS, MASKS, NO_QUANTITIES, SURFACE, Provider, Quantity, Step
+
+Array = NDArray[Any]
+
+# Passes that look at one vertex at a time have so many of them at once.
+_VERTICES = 1 << 16
+
+
+def needs(one: Step, area: str) -> list[str]:
+    """The quantities a pass needs, the chosen cell area under its own name."""
+    return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need not in NO_QUANTITIES]
+
+
+def arguments(
+    one: Step, surface: Surface, have: Mapping[str, Array], area: str = "barycentric", settings: Settings = DEFAULTS
+) -> list[Any]:
+    """What a pass is called with."""
+    columns = iter(needs(one, area))
+
+    def answer(need: str) -> Any:
+        if need not in NO_QUANTITIES:
+            return have[next(columns)]
+        return surface if need == SURFACE else getattr(surface if need in MASKS else settings, need)
+
+    return [answer(need) for need in one.needs]
+
+
+def schedule(passes: Provider, names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Step]:
+    """The passes that must run for the named quantities, each after what it needs."""
+    graph: dict[str, set[str]] = {}
+    found: dict[str, Step] = {}
+    todo = list(names)
+    while todo:
+        one = passes.provider(todo.pop())
+        if one.name not in graph:
+            found[one.name] = one
+            missing = [need for need in needs(one, area) if need not in have]
+            graph[one.name] = {passes.provider(need).name for need in missing}
+            todo += missing
+    sorter = TopologicalSorter(graph)
+    sorter.prepare()
+    order: list[Step] = []
+    ready: list[Step] = []
+    while sorter.is_active():
+        ready += map(found.__getitem__, sorter.get_ready())
+        ready.sort(key=lambda one: one.pointwise)  # last, so that they come together
+        order.append(ready.pop(0))
+        sorter.done(order[-1].name)
+    return order
+
+
+def prepare(passes: Provider, surface: Surface, names: Iterable[str], area: str = "barycentric") -> None:
+    """Work out the topology, and let go of the edges unless one of the named quantities comes by way of edges."""
+    order = schedule(passes, (name.partition(AT_SCALE)[0] for name in names), area)
+    if any(quantity.on == "edge" for one in order for quantity in one.provides):
+        surface.work_out_topology()
+    else:
+        surface.let_go_of_edges()
+
+
+def evaluate(
+    passes: Provider,
+    surface: Surface,
+    names: Iterable[str],
+    *,
+    area: str = "barycentric",
+    settings: Settings = DEFAULTS,
+    known: Mapping[str, Array] | None = None,
+) -> dict[str, Array]:
+    """Compute the named quantities and only what they need; every pass runs once, intermediates are let go.
+
+    area: which cell area `K_density` and what follows from it use. settings: what estimators are told; names that
+    depend on the scale may say which, `NAME@SCALE`. known: columns that need not be computed again.
+    Arrays are frozen, in the unit of computation and the sum convention of H.
+    """
+    have = dict(known or {})
+    wanted = {name for name in names if name not in have}
+    around = {name for name in wanted if passes.looks_around(name)}
+    if around and not surface.is_manifold:
+        have |= on_single_fans(surface, evaluate(passes, sheets(surface), around, area=area, settings=settings))
+        wanted -= around
+    plain = {name for name in wanted if AT_SCALE not in name}
+    have |= _evaluate(passes, surface, plain | _shared(passes, wanted - plain, area), area, settings, have)
+    for scale in settings.scales:
+        suffix = AT_SCALE + scale.name
+        here = {name.removesuffix(suffix) for name in wanted if name.endswith(suffix)}
+        if here:
+            same = {k: column for k, column in have.items() if AT_SCALE not in k and not passes.depends_on_scale(k)}
+            found = _evaluate(passes, surface, here, area, replace(settings, scales=(scale,)), same)
+            have |= {name + suffix: found[name] for name in here}
+    forget(surface)
+    return have
+
+
+def _shared(passes: Provider, names: Iterable[str], area: str) -> set[str]:
+    """What several scales have in common of the way to the names at them."""
+    order = schedule(passes, (name.partition(AT_SCALE)[0] for name in names), area)
+    scaled = [one for one in order if passes.depends_on_scale(one.provides[0].name)]
+    return {need for one in scaled for need in needs(one, area) if not passes.depends_on_scale(need)}
+
+
+def _evaluate(
+    passes: Provider, surface: Surface, names: Iterable[str], area: str, settings: Settings, known: Mapping[str, Array]
+) -> dict[str, Array]:
+    """The known columns and the named ones, at one scale."""
+    have: dict[str, Array] = dict(known)
+    keep = {*names, *have}
+
+    order = schedule(passes, [name for name in keep if name not in have], area, set(have))
+    uses = Counter(need for one in order for need in needs(one, area))
+    for _, group in groupby(order, key=lambda one: one.pointwise or one.name):
+        run = list(group)
+        if run[0].pointwise:
+            found = _at_vertices(run, surface, have, area)
+        else:
+            found = _named(run[0], arguments(run[0], surface, have, area, settings))
+        for array in found.values():
+            array.setflags(write=False)
+        have |= found
+        for one in run:
+            for need in [*needs(one, area), *(quantity.name for quantity in one.provides)]:
+                uses[need] -= need in needs(one, area)
+                if uses[need] <= 0 and need not in keep:
+                    have.pop(need, None)
+    return have
+
+
+def _named(one: Step, given: Iterable[Any]) -> dict[str, Array]:
+    """What a pass provides, by name."""
+    found = one.compute(*given)
+    names = [quantity.name for quantity in one.provides]
+    return dict(zip(names, found if len(names) > 1 else (found,), strict=True))
+
+
+def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array], area: str) -> dict[str, Array]:
+    """What passes provide that look at one vertex at a time, in blocks of vertices and two threads.
+
+    What one pass finds is still in the cache when the next one needs it.
+    """
+    n = surface.n_vertices
+    columns = {
+        quantity.name: np.empty((3, n) if quantity.vector else n, bool if quantity.kind == "flag" else np.float64)
+        for one in run
+        for quantity in one.provides
+    }
+    given = {name: have[name] for one in run for name in needs(one, area) if name not in columns}
+    masks = {name: getattr(surface, name) for one in run for name in one.needs if name in MASKS}
+
+    def fill(block: slice) -> None:
+        here = {name: column[..., block] for name, column in given.items()}
+        some: Any = SimpleNamespace(**{name: mask[block] for name, mask in masks.items()})
+        for one in run:
+            found = _named(one, arguments(one, some, here, area))
+            for name, part in found.items():
+                columns[name][..., block] = part
+            here |= found
+
+    for_each(slices(n, _VERTICES), fill)
+    return columns
+
+
+def presented(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:
+    """A column as a user sees it: in the file's unit of length and the chosen convention for H, codes as words.
+
+    Vectors come out as (n, 3).
+    """
+    if quantity.labels:
+        array = np.array(quantity.labels)[array]
+    if quantity.length_exponent:
+        array = surface.in_file_unit(array, quantity.length_exponent)
+    if mean == "average" and quantity.mean_degree:
+        array = array * 0.5**quantity.mean_degree
+    array.setflags(write=False)
+    return array.T if quantity.vector else array

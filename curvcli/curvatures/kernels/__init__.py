@@ -1,0 +1,1 @@
+"""Kernels: array computations that several passes share."""

@@ -1,0 +1,74 @@
+"""Faces glued along their sides into pieces with one winding, for work that walks from face to face."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...mesh.orientation import same_direction
+from ...mesh.topology import Index, Mask
+
+if TYPE_CHECKING:
+    from ...mesh.surface import Surface
+
+
+@dataclass(frozen=True)
+class Gluing:
+    """Coherently wound faces and which of their sides are one edge.
+
+    tail: (3F,) vertex at the tail of each side; side 3 f + k runs from corner k to corner k + 1 of face f.
+    one, other: the two sides of every edge with n_e = 2, running opposite ways. single: all sides of the other edges.
+    twofold: (F,) faces of patches that are present as their orientable double cover, each original face twice; None
+    where there are none.
+    """
+
+    tail: Index
+    one: Index
+    other: Index
+    single: Index
+    twofold: Mask | None
+
+
+def glue(surface: Surface) -> Gluing:
+    """Faces turned as the surface's orientation says; a patch without one is replaced by its double cover.
+
+    What is intrinsic lifts to the cover and is counted twice there, so no rule for one-sided patches is needed.
+    """
+    edges, faces = surface.edges, surface.faces
+    one, other = edges.pairs
+    single = edges.half_edges(edges.unpaired)
+    orientation = surface.orientation
+    if orientation.face_sign is None and surface.orientable:
+        return Gluing(faces.flatten(), one, other, single, None)
+    n = len(faces)
+    turned = np.zeros(n, bool) if orientation.face_sign is None else orientation.face_sign < 0
+    covered = ~orientation.orientable[orientation.patch]
+    copied = np.flatnonzero(covered)
+    copy = np.arange(n)
+    copy[copied] = n + np.arange(len(copied))
+    crossing = same_direction(faces, one, other)
+    turned = np.append(turned, np.ones(len(copied), bool))
+    corners = np.concatenate([faces, faces[copied]])
+    corners[turned] = corners[turned][:, [0, 2, 1]]
+
+    def sides(half_edge: Index, upper: Mask) -> Index:
+        """The side of a half-edge in the file's own faces or in their copies."""
+        face, k = half_edge // 3, half_edge % 3
+        face = np.where(upper, copy[face], face)
+        return np.asarray(3 * face + np.where(turned[face], 2 - k, k), np.int32)
+
+    def both(half_edge: Index, upper: Mask) -> Index:
+        """Sides on the lower sheet, then those of covered patches on the upper one."""
+        again = covered[half_edge // 3]
+        return np.concatenate([sides(half_edge, upper), sides(half_edge[again], ~upper[again])])
+
+    below = np.zeros(len(one), bool)
+    return Gluing(
+        corners.ravel(),
+        both(one, below),
+        both(other, crossing & covered[other // 3]),
+        both(single, np.zeros(len(single), bool)),
+        np.append(covered, np.ones(len(copied), bool)) if len(copied) else None,
+    )

@@ -1,0 +1,267 @@
+"""Intrinsic Delaunay triangulation: the same surface, cut along other straight edges between the same vertices.
+
+Flips live on a Δ-complex: an edge may be a loop, two faces may share two edges, a face may be glued to itself.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...mesh.topology import Mask, next_corner, previous_corner
+from ...mesh.triangles import EPSILON, Floats, dot, span, triangles
+from ...support.blocks import slices
+from ...support.double_double import THIN_COTANGENT, DoubleDouble, corner_products, empty
+from .gluing import glue
+
+if TYPE_CHECKING:
+    from ...mesh.surface import Surface
+
+Indices = NDArray[np.integer[Any]]
+
+# An edge is flipped where cot α + cot β is below this; what is cocircular stays, or it would flip for ever.
+_LIMIT = 1e-12
+# The rounding of a sum of cotangents in twice the digits, in units of the cotangents squared.
+_SLACK = 1e-28
+# Squares below this, in the unit of computation, have lost to underflow the digits that a flip would need.
+_LOST = 2.0**-900
+# Flips at once: their temporaries stay in the second-level cache.
+_FLIPS_PER_BLOCK = 4096
+# Meshes made by people need a few flips per edge; what needs more than these, ten seconds' worth, is given up.
+_MOST_FLIPS, _MOST_FLIPS_PER_EDGE = 8_000_000, 20
+# What a round costs beside its flips, in flips.
+_ROUND = 400
+
+
+class IntrinsicTriangulation:
+    """A triangulated surface as faces glued along their sides, with inner geometry alone, flipped to Delaunay.
+
+    Side 3 f + k of face f runs from corner k to corner k + 1. tail: (3F,) vertex where each side begins. edge: (3F,)
+    edge of each side. side: (E,) one side of each edge. mates: (E,) sum of an edge's two sides, -1 where it is
+    constrained: edges with n_e ≠ 2, of which each side is an edge of its own. weight: (E,) cot α + cot β.
+    flips, rounds: how many. failing: (E,) edges that should still be flipped: none, unless the flips were given up.
+    most_flips: when they are, by default at twenty per edge and eight million.
+
+    The geometry of a face that is thin or was flipped is kept to twice the digits, so that needles of any kind keep
+    theirs and no decision wavers: at each corner the dot product of the edges that leave it, and twice the area.
+    Termination: each flip lowers the Dirichlet energy of every function that is linear on faces.
+    Source: Bobenko and Springborn, A discrete Laplace–Beltrami operator for simplicial surfaces, section 2.
+    """
+
+    def __init__(self, surface: Surface, most_flips: int | None = None) -> None:
+        glued = glue(surface)
+        self.xyz, self.n_vertices, self.tail, self.twofold = surface.xyz, surface.n_vertices, glued.tail, glued.twofold
+        pairs = len(glued.one)
+        n_faces, n_edges = len(self.tail) // 3, pairs + len(glued.single)
+        self._cotangent, self._thin = self._plain_cotangents()
+        self._lifted = np.zeros(n_faces, bool)
+        self._products, self._twice_area = empty(len(self.tail)), empty(n_faces)
+        self._flipped = np.zeros(n_edges, bool)
+        self._mark = np.empty(max(n_edges, n_faces), np.int32)
+        self.flips = self.rounds = 0
+        self.side, self.mates, self.weight = np.empty(n_edges, np.int32), np.empty(n_edges, np.int32), np.empty(n_edges)
+        self.edge = np.empty(len(self.tail), np.int32)
+        for block in slices(pairs):
+            one, other = (np.ascontiguousarray(sides[block], np.intp) for sides in (glued.one, glued.other))
+            self.side[block], self.mates[block] = one, one + other
+            self.edge[one] = self.edge[other] = np.arange(block.start, block.stop, dtype=np.int32)
+            with np.errstate(over="ignore", invalid="ignore"):
+                self.weight[block] = self._cotangent.take(one) + self._cotangent.take(other)
+        self.side[pairs:], self.mates[pairs:] = glued.single, -1
+        self.edge[glued.single] = np.arange(pairs, n_edges, dtype=np.int32)
+        self.weight[pairs:] = self._cotangent[glued.single]
+        self.failing = self.weight < -_LIMIT
+        self.failing[pairs:] = False
+        self._weigh_thin(self._distinct(self._edges_of(np.flatnonzero(self._thin))))
+        self._flip_all(_MOST_FLIPS + _MOST_FLIPS_PER_EDGE * n_edges if most_flips is None else most_flips)
+
+    # ------------------------------------------------------------------ geometry
+
+    def _plain_cotangents(self) -> tuple[Floats, Mask]:
+        """(3F,) cotangent of the angle opposite each side, and the faces that are too thin for plain arithmetic."""
+        corners = self.tail.reshape(-1, 3)
+        cotangent, thin = np.empty(corners.shape), np.empty(len(corners), bool)
+        for block in slices(len(corners)):
+            t = triangles(self.xyz, corners[block])
+            with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+                opposite = [t.cosines[k - 1] / t.twice_area for k in range(3)]
+            for k in range(3):
+                cotangent[block, k] = opposite[k]
+            thin[block] = _any_large(opposite)
+        return cotangent.ravel(), thin
+
+    def _lift(self, faces: Indices) -> None:
+        """Work out the given faces from their corners to twice the digits, those not yet known."""
+        new = self._distinct(faces[~self._lifted[faces]])
+        if len(new):
+            self._lifted[new] = True
+            corners = tuple(self.tail[3 * new + k] for k in range(3))
+            products, twice_area = corner_products(self.xyz, corners)
+            for k in range(3):
+                self._products.put(3 * new + k, products[k])
+            self._twice_area.put(new, twice_area)
+
+    def _weigh(self, edges: Indices) -> None:
+        """Weights of the given edges, and whether they must be flipped."""
+        for block in slices(len(edges), _FLIPS_PER_BLOCK):
+            edge = edges[block]
+            here, there, free = self._sides(edge)
+            thin = self._thin[here // 3] | self._thin[there // 3]
+            with np.errstate(over="ignore", invalid="ignore"):
+                weight = self._cotangent[here] + np.where(free, self._cotangent[there], 0.0)
+            self.weight[edge] = weight
+            self.failing[edge] = free & (here // 3 != there // 3) & (weight < -_LIMIT) & ~self._lost(here)
+            self._weigh_thin(edge[thin])
+
+    def _weigh_thin(self, edges: Indices) -> None:
+        """The same to twice the digits, for edges of thin faces."""
+        for block in slices(len(edges), _FLIPS_PER_BLOCK):
+            edge = edges[block]
+            here, there, free = self._sides(edge)
+            f, g = here // 3, there // 3
+            self._lift(np.concatenate([f, g]))
+            c, d = self._products.at(previous_corner(here)), self._products.at(previous_corner(there))
+            c_area, d_area = self._twice_area.at(f), self._twice_area.at(g)
+            with np.errstate(all="ignore"):
+                one, other = c.high / c_area.high, d.high / d_area.high
+                weight = ((c * d_area + d * c_area) / (c_area * d_area)).high
+                flat = (c_area.high == 0) | (d_area.high == 0)
+                weight = np.where(flat, one + other, weight)
+                limit = _LIMIT + _SLACK * np.maximum(abs(one), abs(other)) ** 2
+                self.failing[edge] = free & (f != g) & ~self._lost(here) & (weight < -np.minimum(limit, 1e300))
+            self.weight[edge] = np.where(free, weight, one)
+
+    def _lost(self, sides: Indices) -> Mask:
+        """Sides of lifted faces across which no flip can be computed."""
+        lost: Mask = self._lifted[sides // 3]
+        lifted = np.flatnonzero(lost)
+        known = sides[lifted]
+        lost[lifted] = self._products.high[known] + self._products.high[next_corner(known)] < _LOST
+        return lost
+
+    def _sides(self, edges: Indices) -> tuple[Indices, Indices, Mask]:
+        """Both sides of the given edges, the one side twice where an edge is constrained, and where it is not."""
+        here = self.side[edges]
+        free = self.mates[edges] >= 0
+        return here, np.where(free, self.mates[edges] - here, here), free
+
+    # ------------------------------------------------------------------ flips
+
+    def _flip_all(self, most: int) -> None:
+        """Flip until no edge fails; in each round those that have precedence in both of their faces."""
+        first = np.full(len(self._lifted), np.uint32(0xFFFFFFFF))
+        todo: Indices = np.flatnonzero(self.failing)
+        while len(todo) and self.flips + _ROUND * self.rounds < most:
+            here = self.side[todo]
+            f, g = here // 3, (self.mates[todo] - here) // 3
+            # An odd factor permutes the numbers below 2³²: precedence is arbitrary, never equal, and repeatable.
+            precedence = (todo.astype(np.uint32) + np.uint32(self.rounds)) * np.uint32(2654435761)
+            np.minimum.at(first, f, precedence)
+            np.minimum.at(first, g, precedence)
+            chosen = (first[f] == precedence) & (first[g] == precedence)
+            first[f] = first[g] = 0xFFFFFFFF
+            self._flip(todo[chosen])
+            changed = self._distinct(self._edges_of(np.concatenate([f[chosen], g[chosen]])))
+            self._weigh(changed)
+            todo = self._distinct(np.concatenate([todo[~chosen], changed]))
+            todo = todo[self.failing[todo]]
+            self.rounds += 1
+
+    def _flip(self, edges: Indices) -> None:
+        """Flip edges no two of which share a face.
+
+        The faces p q r and q p s at edge p q are laid out in the plane with p q as axis, where the corner products and
+        areas are the coordinates of r and s; they become q r s and p s r.
+        """
+        for block in slices(len(edges), _FLIPS_PER_BLOCK):
+            edge = edges[block]
+            pq = self.side[edge]
+            qp = self.mates[edge] - pq
+            qr, rp, ps, sq = next_corner(pq), previous_corner(pq), next_corner(qp), previous_corner(qp)
+            f, g = pq // 3, qp // 3
+            self._lift(np.concatenate([f, g]))
+            c_p, c_q, c_r = (self._products.at(side) for side in (pq, qr, rp))
+            d_p, d_q, d_s = (self._products.at(side) for side in (ps, qp, sq))
+            c_area, d_area = self._twice_area.at(f), self._twice_area.at(g)
+            square, heights = c_p + c_q, c_area * d_area
+            at_p, at_q = (c_p * d_p - heights) / square, (c_q * d_q - heights) / square
+            p_area, q_area = (c_p * d_area + d_p * c_area) / square, (c_q * d_area + d_q * c_area) / square
+            self._replace((qr, rp, pq), (at_q, c_q + c_r - at_q, d_q + d_s - at_q), q_area.clamped())
+            self._replace((ps, sq, qp), (at_p, d_p + d_s - at_p, c_p + c_r - at_p), p_area.clamped())
+            self._reglue(edge, pq, qp, rp, sq)
+            self.flips += len(edge)
+
+    def _replace(self, sides: tuple[Indices, ...], products: tuple[DoubleDouble, ...], area: DoubleDouble) -> None:
+        """Give faces a new shape: the products at the tails of their sides in cyclic order, and twice the area."""
+        face = sides[0] // 3
+        self._twice_area.put(face, area)
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            cotangents = [product.high / area.high for product in products]
+        for k, side in enumerate(sides):
+            self._products.put(side, products[k])
+            self._cotangent[side] = cotangents[k - 1]
+        self._thin[face] = _any_large(cotangents)
+
+    def _reglue(self, edge: Indices, pq: Indices, qp: Indices, rp: Indices, sq: Indices) -> None:
+        """Edge s q moves to the side that was p q, edge r p to the one that was q p; both freed sides are r s."""
+        for old, new in ((sq, pq), (rp, qp)):
+            self.tail[new] = self.tail[old]
+        moved = self.edge[np.concatenate([sq, rp])]
+        old, new = np.concatenate([sq, rp]), np.concatenate([pq, qp])
+        free = self.mates[moved] >= 0
+        np.add.at(self.mates, moved[free], (new - old)[free])
+        self.edge[new], self.side[moved] = moved, new
+        self.edge[rp] = self.edge[sq] = edge
+        self.side[edge], self.mates[edge] = rp, rp + sq
+        self._flipped[edge] = True
+
+    def _edges_of(self, faces: Indices) -> Indices:
+        """The edges of faces, with repetitions."""
+        edges: Indices = self.edge[(3 * faces[:, None] + np.arange(3)).ravel()]
+        return edges
+
+    def _distinct(self, items: Indices) -> Indices:
+        """Each of the given edges (or faces) once."""
+        position = np.arange(len(items), dtype=np.int32)
+        self._mark[items] = position
+        once: Indices = items[self._mark[items] == position]
+        return once
+
+    # ------------------------------------------------------------------ results
+
+    def lengths_squared(self, edges: slice) -> Floats:
+        """Squared lengths of some edges."""
+        side = self.side[edges].astype(np.intp)
+        head = next_corner(side)
+        ends = [self.tail.take(corner).astype(np.intp) for corner in (side, head)]
+        along = span(self.xyz, *ends)
+        squares = dot(along, along)
+        new = np.flatnonzero(self._flipped[edges])
+        squares[new] = (self._products.at(side[new]) + self._products.at(head[new])).high
+        return squares
+
+    def degenerate_corners(self) -> Mask:
+        """(V,) corners of faces without area, twice area ≤ 4ε · (longest edge)², that no flip could mend."""
+        known = np.flatnonzero(self._lifted)
+        c = [self._products.at(3 * known + k).high for k in range(3)]
+        longest = c[0] + c[1] + c[2] - np.minimum(np.minimum(c[0], c[1]), c[2])
+        return self._corners(known[self._twice_area.high[known] <= 4 * EPSILON * longest])
+
+    def unfinished_corners(self) -> Mask:
+        """(V,) corners of faces at edges that still fail."""
+        side = self.side[self.failing]
+        return self._corners(np.concatenate([side, self.mates[self.failing] - side]) // 3)
+
+    def _corners(self, faces: Indices) -> Mask:
+        marked = np.zeros(self.n_vertices, bool)
+        marked[self.tail.reshape(-1, 3)[faces].ravel()] = True
+        return marked
+
+
+def _any_large(cotangents: list[Floats]) -> Mask:
+    """Where one of three cotangents is too large for plain arithmetic, or undefined."""
+    largest = np.maximum(np.maximum(abs(cotangents[0]), abs(cotangents[1])), abs(cotangents[2]))
+    large: Mask = ~(largest <= THIN_COTANGENT)
+    return large

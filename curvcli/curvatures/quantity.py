@@ -1,0 +1,97 @@
+"""Quantity: the declaration of one column, and the types that passes are written in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, Protocol
+
+from ..mesh.scale import PARAMETERS
+
+Element = Literal["vertex", "edge", "face"]
+Kind = Literal["measure", "density", "angle", "length", "direction", "ratio", "count", "label", "flag"]
+Parity = Literal["even", "odd"]
+
+# Parameters that are no quantity: the surface itself, its masks of vertices, and the area that `--area` chooses.
+SURFACE, MASKS, CELL_AREA = "surface", ("interior", "boundary", "referenced", "without_orientation"), "cell_area"
+# The others are answered by `Settings`; what depends on the scale is named `NAME@SCALE` where there are several.
+NO_QUANTITIES = (SURFACE, *MASKS, *PARAMETERS)
+AT_SCALE = "@"
+CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One column.
+
+    name: of the column. symbol, formula, preserves, boundary, source: for people. on: its element.
+    kind: `measure` is integrated, `density` is per area or pointwise. length_exponent: how it scales with length.
+    mean_degree: 0, 1 or 2, how it scales with the convention for H. parity: under reversal of the orientation; what is
+    odd is null on patches that have none. vector: (3, n). public: whether it is a column of the table.
+    total: the key of its sum in the report. signed: whether 0 is the middle of its range. labels: what codes stand for.
+    column: its name in the table of its element where that is not its own, which is unique among all elements.
+    partner: the quantity it changes places with under reversal, as the larger curvature does with the smaller.
+    line: a direction without a sign, ±d are the same. rooted: a root of a difference, of which rounding takes half of
+    the digits; None is rooted where something it needs is.
+    """
+
+    name: str
+    symbol: str = ""
+    formula: str = ""
+    on: Element = "vertex"
+    kind: Kind = "measure"
+    length_exponent: int = 0
+    mean_degree: int = 0
+    parity: Parity = "even"
+    preserves: str = ""
+    boundary: str = ""
+    source: str = ""
+    vector: bool = False
+    public: bool = True
+    total: str | None = None
+    signed: bool = False
+    labels: tuple[str, ...] = ()
+    description: str = ""
+    column: str = ""
+    partner: str = ""
+    line: bool = False
+    rooted: bool | None = None
+
+    @property
+    def stem(self) -> str:
+        """What it is called in the table of its element."""
+        return self.column or self.name
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of its scalar columns: three for a vector."""
+        return tuple(f"{self.stem}_{axis}" for axis in "xyz") if self.vector else (self.stem,)
+
+    def unit(self, length: str | None) -> str:
+        """Its unit in terms of the unit of length, `1` for a pure number."""
+        exponent = self.length_exponent
+        base = length or "length"
+        return "1" if exponent == 0 else base if exponent == 1 else f"{base}^{exponent}"
+
+
+class Step(Protocol):
+    """A pass, as the engine runs it: see `registry.Pass`."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def compute(self) -> Callable[..., Any]: ...
+    @property
+    def provides(self) -> tuple[Quantity, ...]: ...
+    @property
+    def needs(self) -> tuple[str, ...]: ...
+    @property
+    def pointwise(self) -> bool: ...
+
+
+class Provider(Protocol):
+    """Passes by what they provide: see `registry.Registry`."""
+
+    def provider(self, quantity: str) -> Step: ...
+    def depends_on_scale(self, name: str) -> bool: ...
+    def looks_around(self, name: str) -> bool: ...

@@ -1,0 +1,207 @@
+"""The declaration of a pass: what a quantity is called, what it is, what it keeps, and what it is computed from.
+
+A pass is one pure function. Its name is the column, its parameters are the quantities it needs, its decorator says what
+it is; tables, schema, documentation, invariance tests and benchmarks follow from that.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from importlib import import_module
+from operator import getitem
+from typing import Any, get_args
+
+from ..errors import UsageError
+from ..loading.load import as_surface
+from ..mesh.scale import PARAMETERS
+from ..support.words import suggestion
+from .engine import evaluate, presented
+from .order import TOTALS, ordered
+from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity
+
+# The names of scales at the end of a column: `3rings`, `2.5e`, `r0.1`.
+_SCALE = re.compile(r"r\d[\d.e+-]*|\d[\d.e+-]*(rings|e)")
+
+
+@dataclass(frozen=True)
+class Pass:
+    """A registered function with the quantities it provides and the names of what it needs.
+
+    pointwise: whether what it gives at a vertex follows from what its arguments say of it. They are columns and masks
+    of vertices then, what it gives are numbers and flags, and the function is called with some vertices at a time.
+    """
+
+    name: str
+    compute: Callable[..., Any]
+    provides: tuple[Quantity, ...]
+    needs: tuple[str, ...]
+    registry: Registry = field(repr=False, compare=False)
+    pointwise: bool = False
+
+    def __reduce__(self) -> tuple[Callable[[Registry, str], Pass], tuple[Registry, str]]:
+        """Pickle a pass by its name: its function stands in its module under that name."""
+        return getitem, (self.registry, self.name)
+
+    def __call__(self, surface: Any) -> Any:
+        """Its column on a surface ((V, 3) for a vector), or a dictionary of them if it provides several.
+
+        surface: a Surface, a path, a trimesh.Trimesh or a pair (points, faces).
+        """
+        surface = as_surface(surface)
+        found = evaluate(self.registry, surface, [quantity.name for quantity in self.provides])
+        shown = {q.name: presented(q, found[q.name], surface) for q in self.provides}
+        return shown[self.provides[0].name] if len(shown) == 1 else shown
+
+
+class Registry(Mapping[str, Pass]):
+    """All passes by name; quantities are looked up with `provider` and `quantity`.
+
+    home: the module that fills the registry at import; another process finds the registry there.
+    """
+
+    def __init__(self, home: str = "") -> None:
+        self._home = home
+        self._passes: dict[str, Pass] = {}
+        self._providers: dict[str, Pass] = {}
+
+    def __reduce__(self) -> str | tuple[Any, ...]:
+        """Pickle a registry by its home, and one without a home as an object."""
+        return (_passes_of, (self._home,)) if self._home else super().__reduce__()
+
+    def __getitem__(self, name: str) -> Pass:
+        return self._passes[name]
+
+    def __getattr__(self, name: str) -> Pass:
+        # No pass has such a name; a copy that is being made has no passes yet.
+        if name.startswith("_") or name not in self._passes:
+            raise AttributeError(name)
+        return self._passes[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._passes)
+
+    def __len__(self) -> int:
+        return len(self._passes)
+
+    def add(self, new: Pass) -> Pass:
+        """Register a pass and return it as registered.
+
+        Its needs must be known and its columns new, so that a misspelling fails at import.
+        """
+        for need in new.needs:
+            if need not in self._providers and need not in (*NO_QUANTITIES, CELL_AREA):
+                way_out = suggestion(need, [*self._providers, *NO_QUANTITIES, CELL_AREA])
+                raise UsageError(f"pass {new.name} needs {need}, which no pass provides{way_out}")
+        apart = {need for need in new.needs if need == SURFACE or need in PARAMETERS}
+        apart |= {need for need in new.needs if need in self._providers and self.quantity(need).on != "vertex"}
+        if new.pointwise and apart:
+            raise UsageError(
+                f"pass {new.name} looks at one vertex at a time and needs {', '.join(sorted(apart))}, "
+                f"expected columns of vertices, {CELL_AREA}, {' or '.join(MASKS)}"
+            )
+        names = [quantity.name for quantity in new.provides]
+        for name in names:
+            if name in self._providers or names.count(name) > 1:
+                raise UsageError(f"pass {new.name} provides {name}, which exists already")
+        if new.name in self._passes:
+            raise UsageError(f"a pass {new.name} exists already")
+        new = replace(new, provides=tuple(self._settled(quantity, new.needs) for quantity in new.provides))
+        self._passes[new.name] = new
+        self._providers.update({quantity.name: new for quantity in new.provides})
+        return new
+
+    def _settled(self, quantity: Quantity, needs: tuple[str, ...]) -> Quantity:
+        """A quantity that says whether it is rooted."""
+        if quantity.rooted is not None:
+            return quantity
+        return replace(quantity, rooted=any(self.quantity(need).rooted for need in needs if need in self._providers))
+
+    def provider(self, quantity: str) -> Pass:
+        """The pass that provides a quantity."""
+        return self._providers[quantity]
+
+    def quantity(self, name: str) -> Quantity:
+        """The declaration of a quantity, also of one at a scale."""
+        plain, _, scale = name.partition(AT_SCALE)
+        found = next(quantity for quantity in self._providers[plain].provides if quantity.name == plain)
+        if not scale:
+            return found
+        total = f"{found.total}_{scale}" if found.total else None
+        return replace(found, name=name, column=f"{found.stem}_{scale}", total=total)
+
+    def depends_on_scale(self, name: str) -> bool:
+        """Whether a quantity, or one that it needs, looks at neighbourhoods."""
+        needs = self._providers[name].needs
+        return "scale" in needs or any(self.depends_on_scale(need) for need in needs if need in self._providers)
+
+    def looks_around(self, name: str) -> bool:
+        """Whether a quantity, perhaps at a scale, says of vertices what their neighbourhoods are like."""
+        plain = name.partition(AT_SCALE)[0]
+        return self.depends_on_scale(plain) and self.quantity(plain).on == "vertex"
+
+    def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
+        """Quantities in the order of the tables, vertices first; what has no place there follows as it was declared."""
+        elements = get_args(Element) if on is None else (on,)
+        placed = ordered(self._declared(), lambda quantity: quantity.name)
+        return [
+            quantity
+            for element in elements
+            for quantity in placed
+            if quantity.on == element and (quantity.public or not public)
+        ]
+
+    def totals(self) -> list[Quantity]:
+        """Quantities with a total, in the order of the report."""
+        declared = (quantity for quantity in self._declared() if quantity.total)
+        return ordered(declared, lambda quantity: quantity.total or "", TOTALS)
+
+    def column(self, name: str, on: Element = "vertex") -> Quantity | None:
+        """The quantity that a column of a table belongs to, also of one at a scale (`K_fit_2e`); None for another."""
+        found: Quantity | None = None
+        for quantity in self._declared():
+            if quantity.on == on and quantity.public:
+                if name in quantity.columns:
+                    return quantity
+                start, scale = f"{quantity.stem}_", name[:-2] if quantity.vector else name
+                if (
+                    scale.startswith(start)
+                    and _SCALE.fullmatch(scale[len(start) :])
+                    and self.depends_on_scale(quantity.name)
+                ):
+                    found = quantity
+        return found
+
+    def _declared(self) -> Iterator[Quantity]:
+        return (quantity for registered in self._passes.values() for quantity in registered.provides)
+
+
+def _passes_of(home: str) -> Registry:
+    """The registry of a module, filled."""
+    found: Registry = import_module(home).loaded()
+    return found
+
+
+passes = Registry("curvcli.curvatures.catalogue")
+
+
+def curvature_pass(
+    provides: tuple[Quantity, ...] = (), *, pointwise: bool = False, **declaration: Any
+) -> Callable[[Callable[..., Any]], Pass]:
+    """Register a function as a pass.
+
+    Without `provides`, the function's name is its one quantity and the keywords are the fields of `Quantity`; with it,
+    the function returns a tuple of arrays in that order. `pointwise`: see `Pass`.
+    """
+
+    def register(function: Callable[..., Any]) -> Pass:
+        name = function.__name__
+        text = inspect.cleandoc(function.__doc__ or "")
+        quantities = provides or (Quantity(name, **declaration),)
+        quantities = tuple(q if q.description else replace(q, description=text) for q in quantities)
+        new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters), passes, pointwise)
+        return passes.add(new)
+
+    return register

@@ -1,0 +1,88 @@
+"""From whatever a caller has — a path, a trimesh, a pair of arrays — to a Surface."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any, BinaryIO, Literal
+
+from ..errors import UsageError
+from ..mesh.file import MeshFile
+from ..mesh.polygons import from_file
+from ..mesh.surface import Orient, Surface
+from .objects import is_stream, refusal
+
+
+def load(
+    source: str | os.PathLike[str] | BinaryIO,
+    *,
+    weld: str | float = "auto",
+    orient: Orient = "file",
+    input_format: str | None = None,
+    max_faces: int | None = None,
+    max_bytes: int | None = None,
+    normals: Literal["mesh", "file"] = "mesh",
+    texture: bool = False,
+) -> Surface:
+    """Read an OBJ, PLY or STL file as the surface it describes: rows in file order, seams never cut, nothing repaired.
+
+    weld: `auto` (STL by exact position, OBJ and PLY not at all), `none`, `exact`, or a tolerance relative to the
+    diagonal of the bounding box. orient: `outward` turns closed patches that are inside out. normals: `file` also
+    reads the normals of an OBJ file, texture its texture coordinates; those of a PLY file are among its properties.
+    Errors: InputError, one line with file, place, expectation and way out; TypeError for no path and no stream.
+    """
+    from .read import read_and_make
+
+    if not (isinstance(source, str | bytes | os.PathLike) or is_stream(source)):
+        raise refusal(source, "a path or a binary stream", "curvcli.analyze accepts")
+    importing = "trimesh" not in sys.modules
+
+    def surface(file: MeshFile) -> Surface:
+        made = from_file(file, orient)
+        if importing:
+            made.work_out_topology()  # almost everything needs it, and the import leaves the time
+        return made
+
+    return read_and_make(surface, source, input_format, weld, max_faces, max_bytes, normals, texture)
+
+
+def as_surface(
+    given: Any,
+    *,
+    orient: Orient | None = None,
+    weld: str | float = "auto",
+    normals: Literal["mesh", "file"] = "mesh",
+) -> Surface:
+    """A Surface from a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays.
+
+    orient: None keeps a Surface's own choice and is `file` for the rest. weld: for files; what is no file is as it is.
+    Errors: InputError for a mesh that is no surface; UsageError for welding what is no file; TypeError for anything
+    else.
+    """
+    if isinstance(given, Surface):
+        _check_weld(weld, given.file.weld if given.file is not None else "none")
+        if orient in (None, given.orient):
+            return given
+        return Surface(
+            given.points,
+            given.faces,
+            orient=orient or "file",
+            polygon=given.polygon,
+            file=given.file,
+            notices=given.notices,
+        )
+    orient = orient or "file"
+    if isinstance(given, str | os.PathLike) or is_stream(given):
+        return load(given, orient=orient, weld=weld, normals=normals)
+    if hasattr(given, "vertices") and hasattr(given, "faces") and not isinstance(given, type):
+        given = given.vertices, given.faces
+    if isinstance(given, tuple | list) and len(given) == 2 and not any(isinstance(part, str) for part in given):
+        _check_weld(weld, "none")
+        return Surface(*given, orient=orient)
+    raise refusal(given)
+
+
+def _check_weld(weld: str | float, merged: str) -> None:
+    """What is there already stays as it was merged: only a file that is read can be merged otherwise."""
+    if str(weld) not in ("auto", merged):
+        raise UsageError(f"weld is {str(weld)!r}, but vertices are merged when a file is read; `curvcli.load` does it")

@@ -1,0 +1,1 @@
+"""Triangle meshes: points, faces and everything combinatorial that follows from them."""

@@ -1,0 +1,118 @@
+"""Points and faces as callers hand them in, made into what a surface keeps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+from ..support.blocks import LONG, each, for_each, slices
+from .topology import Index
+
+_Found = TypeVar("_Found", bound=NDArray[Any])
+
+
+def as_components(points: ArrayLike) -> NDArray[np.float64]:
+    """(V, 3) numbers as frozen (3, V) float64, one contiguous row per coordinate.
+
+    Errors: InputError for another shape or type, or masked entries.
+    """
+    given = _as_array(points, "points", "numbers of shape (V, 3)")
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
+        raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (V, 3)")
+    if _kept(given.T, np.float64):
+        return given.T
+    xyz = np.empty(given.T.shape)
+
+    def convert(block: slice) -> None:
+        xyz[:, block] = given[block].T
+
+    for_each(slices(len(given), LONG), convert)
+    xyz.setflags(write=False)
+    return xyz
+
+
+def _as_array(given: ArrayLike, what: str, expected: str) -> NDArray[Any]:
+    try:
+        array = np.asarray(given)
+    except ValueError:
+        raise InputError(f"{what} have rows of different lengths, expected {expected}") from None
+    if np.ma.is_masked(given):
+        hint = "fill them in, or leave out what they belong to"
+        raise InputError(f"{what} have masked entries, expected {expected} that are all known", hint=hint)
+    return array
+
+
+def _kept(given: NDArray[Any], kind: type[np.generic]) -> bool:
+    """Whether an array can be kept as it is: of this type and layout, and nobody can change it any more."""
+    owner: Any = given
+    while isinstance(owner, np.ndarray):
+        if owner.flags.writeable:
+            return False
+        owner = owner.base
+    return (owner is None or isinstance(owner, bytes)) and given.dtype == kind and given.flags.c_contiguous
+
+
+def frozen(find: Callable[[Any], _Found]) -> Callable[[Any], _Found]:
+    """The function, its array read-only: it is kept, and whoever asks next must find it as it was."""
+
+    @wraps(find)
+    def found(owner: Any) -> _Found:
+        array = find(owner)
+        array.setflags(write=False)
+        return array
+
+    return found
+
+
+def freeze(array: NDArray[Any]) -> None:
+    """Make an array read-only, and all that it is a view of: nobody will change them, and nobody need copy them."""
+    owner: Any = array
+    while isinstance(owner, np.ndarray):
+        owner.setflags(write=False)
+        owner = owner.base
+
+
+def as_triangles(faces: ArrayLike, vertices: int) -> Index:
+    """(F, 3) indices as int32, in range and at least one.
+
+    Errors: InputError for another shape or type, masked entries, no face, or a corner that does not exist.
+    """
+    given = _as_array(faces, "faces", "indices of shape (F, 3)")
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
+        raise InputError(f"faces have shape {given.shape} and type {given.dtype}, expected indices of shape (F, 3)")
+    if not len(given):
+        raise InputError("no faces: there is no surface to measure", hint="expected at least one face")
+    kept = _kept(given, np.int32)
+    triangles = given if kept else np.empty(given.shape, np.int32)
+
+    def take_over(block: slice) -> bool:
+        """Whether the corners of these faces exist."""
+        part = given[block]
+        exist = bool(part.min() >= 0 and part.max() < vertices)
+        if exist and not kept:
+            triangles[block] = part
+        return exist
+
+    if not all(each(slices(len(given), LONG), take_over)):
+        face, corner = (int(i) for i in np.argwhere((given < 0) | (given >= vertices))[0])
+        raise InputError(
+            f"corner {given[face, corner]} does not exist, expected a vertex index from 0 to {vertices - 1}",
+            place=f"face {face}",
+        )
+    return triangles
+
+
+def with_repeated_corner(triangles: Index) -> NDArray[np.intp]:
+    """The triangles that have a corner twice."""
+
+    def find(block: slice) -> NDArray[np.intp]:
+        a, b, c = triangles[block].T
+        found: NDArray[np.intp] = np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
+        return found
+
+    return np.concatenate(list(each(slices(len(triangles), LONG), find)))

@@ -1,0 +1,174 @@
+"""Counting: the topology of the whole surface and of each of its groups."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..support.blocks import slices
+from ..support.cache import cached
+from .groups import Groups
+from .surface import Surface
+from .triangles import by_corner
+from .welding import position_keys, weld_exact
+
+Counts = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Census:
+    """Counts and yes-or-no answers per group."""
+
+    vertices: Counts
+    edges: Counts
+    faces: Counts
+    euler_characteristic: Counts
+    boundary_edges: Counts
+    nonmanifold_edges: Counts
+    nonmanifold_vertices: Counts
+    closed: Mask
+    manifold: Mask
+    orientable: Mask
+    consistent_winding: Mask
+    balanced: Mask
+
+
+@cached
+def census(surface: Surface, groups: Groups) -> Census:
+    """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
+    vertices = groups.vertices.count_true(surface.referenced)
+    # The whole is that of the surface asked about, whatever surface the groups come from.
+    faces = np.array([surface.n_faces]) if groups.faces.label is None else groups.faces.members()
+    boundary = groups.faces.count_of(surface.boundary_half_edges // 3)
+    many = excess = conflicts = np.zeros(groups.count, np.int64)
+    if not surface.coherent:
+        lower, crowded = surface.edges.a, np.flatnonzero(surface.nonmanifold_edges)
+        many = groups.vertices.count_of(lower[crowded])
+        excess = groups.vertices.count_of(np.repeat(lower[crowded], surface.edges.valence[crowded] - 2))
+    if not surface.coherent or _turned(surface) is not None:
+        conflicts = groups.vertices.count_of(surface.edges.a[_winding_conflicts(surface)])
+    # The numbers n_e of all edges add up to three times the faces: only other edges than of two make a difference.
+    edges = (3 * faces + boundary - excess) // 2
+    split = groups.vertices.count_true(surface.split_stars)
+    if surface.orientable:
+        orientable = np.ones(groups.count, bool)
+    else:
+        orientable = ~groups.faces.any(~surface.orientation.orientable[surface.orientation.patch])
+    return Census(
+        vertices,
+        edges,
+        faces,
+        vertices - edges + faces,
+        boundary,
+        many,
+        split,
+        boundary == 0,
+        (many == 0) & (split == 0),
+        orientable,
+        conflicts == 0,
+        groups.vertices.count_of(surface.uncancelled.a) == 0,
+    )
+
+
+def _turned(surface: Surface) -> Mask | None:
+    """(F,) faces that the file winds the other way; None if there are none."""
+    return None if surface.cut_from is None else surface.cut_from.turned
+
+
+def _winding_conflicts(surface: Surface) -> Mask:
+    """(E,) edges with n_e = 2 whose two faces run along them the same way as the file winds them."""
+    turned = _turned(surface)
+    if turned is None:
+        return surface.winding_conflicts
+    one, other = (turned[half_edges // 3] for half_edges in surface.edges.pairs)
+    conflict = surface.winding_conflicts.copy()
+    conflict[surface.edges.inner] ^= one != other
+    return conflict
+
+
+@dataclass(frozen=True)
+class Classification:
+    """Components per group, and their boundary loops, genus and crosscaps summed; NaN where one of them is null."""
+
+    components: Counts
+    boundary_loops: NDArray[np.float64]
+    genus: NDArray[np.float64]
+    crosscaps: NDArray[np.float64]
+
+
+def classify(surface: Surface, groups: Groups) -> Classification:
+    """Classify the components that are manifolds: χ = 2 − 2g − loops if orientable, 2 − crosscaps − loops if not."""
+    pieces = surface.components
+    counts = census(surface, pieces)
+    loops = np.zeros(pieces.count)
+    if len(surface.boundary_half_edges):
+        number, loop_of = surface.boundary_loop_of
+        component = np.empty(number, np.int64)
+        component[loop_of] = pieces.face[surface.boundary_half_edges // 3]
+        loops = np.bincount(component, minlength=pieces.count).astype(np.float64)
+    loops[~counts.manifold] = np.nan
+    missing = 2 - counts.euler_characteristic - loops
+    first = np.unique(pieces.face, return_index=True)[1] if pieces.count > 1 else np.zeros(1, np.int64)
+    group = groups.face[first]
+
+    def summed(values: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(np.bincount(group, values, minlength=groups.count), np.float64)
+
+    return Classification(
+        np.bincount(group, minlength=groups.count),
+        summed(loops),
+        summed(np.where(counts.orientable, missing / 2, np.nan)),
+        summed(np.where(counts.orientable, np.nan, missing)),
+    )
+
+
+@cached
+def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
+    """Referenced vertices beyond the first at exactly the same position."""
+    if surface.cut_from is not None:  # which has a vertex of its own for every piece that meets there
+        there = surface.cut_from
+        return np.flatnonzero(np.isin(there.vertex, duplicate_vertices(there.surface)))
+    shared = _shared_keys(lambda: position_keys(surface.xyz_given))
+    suspects = np.flatnonzero(shared & surface.referenced)
+    first, _ = weld_exact(surface.xyz_given[:, suspects])
+    again = np.ones(len(suspects), bool)
+    again[first] = False
+    return suspects[again]
+
+
+@cached
+def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
+    """Faces beyond the first with the same three corners in any order."""
+    suspects = np.flatnonzero(_shared_keys(lambda: _corner_keys(surface)))
+    if not len(suspects):
+        return suspects
+    corners = np.sort(surface.faces[suspects], axis=1)
+    order = np.lexsort(corners.T)
+    again = (np.diff(corners[order], axis=0) == 0).all(axis=1)
+    return np.sort(suspects[order[1:][again]])
+
+
+def _corner_keys(surface: Surface) -> NDArray[np.uint64]:
+    """(F,) the same number for faces with the same corners, and hardly ever for others."""
+    key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
+    keys = np.empty(surface.n_faces, np.uint64)
+    for block in slices(surface.n_faces):
+        a, b, c = by_corner(surface.faces[block])
+        keys[block] = key[a] + key[b] + key[c]
+    return keys
+
+
+def _shared_keys(make: Callable[[], NDArray[np.uint64]]) -> Mask:
+    """Which members carry a key that another one carries too; keys are sorted in place and made again if need be."""
+    ordered = make()
+    ordered.sort()
+    same = ordered[1:] == ordered[:-1]
+    if not same.any():
+        return np.zeros(len(ordered), bool)
+    repeated = ordered[1:][same]
+    del ordered
+    return np.isin(make(), repeated)

@@ -1,0 +1,132 @@
+"""Groups: the surface as one piece, its components or regions of it, and sums over each that lose no digits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..support.cache import cached
+from .incidence import Incidence
+from .topology import Index
+
+Floats = NDArray[np.float64]
+
+
+class Segments:
+    """Members of groups in contiguous runs, for sums by group.
+
+    label: (n,) group of each member, -1 for none; None when every member is of the only group.
+    """
+
+    def __init__(self, label: Index | None, count: int, size: int) -> None:
+        self.label, self.count, self.size = label, count, size
+
+    @cached_property
+    def _runs(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        assert self.label is not None
+        order = np.argsort(self.label, kind="stable")
+        per_group = np.bincount(self.label + 1, minlength=self.count + 1)
+        start = np.concatenate([[0], np.cumsum(per_group)])[1:]
+        return order, start[:-1], per_group[1:]
+
+    def members(self) -> NDArray[np.int64]:
+        """Number of members of each group."""
+        return np.array([self.size]) if self.label is None else self._runs[2]
+
+    def sum(self, values: NDArray[np.generic]) -> NDArray[np.float64]:
+        """Sums over each group by pairwise summation, error O(log n · ε); nulls (NaN) are left out."""
+        plain = np.asarray(values, np.float64)
+        if np.isnan(plain).any():
+            plain = np.where(np.isnan(plain), 0.0, plain)
+        if self.label is None:
+            return np.array([plain.sum()])
+        order, start, per_group = self._runs
+        sums = np.zeros(self.count)
+        filled = per_group > 0
+        if filled.any():
+            sums[filled] = np.add.reduceat(plain[order], start[filled])
+        return sums
+
+    def count_of(self, members: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Number of the given members in each group."""
+        if self.label is None:
+            return np.array([len(members)])
+        return np.bincount(self.label[members] + 1, minlength=self.count + 1)[1:]
+
+    def count_true(self, mask: NDArray[np.bool_]) -> NDArray[np.int64]:
+        """Number of members of each group where the mask holds."""
+        if self.label is None:
+            return np.array([np.count_nonzero(mask)])
+        return self.count_of(np.flatnonzero(mask))
+
+    def any(self, mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Whether the mask holds for some member of each group."""
+        found: NDArray[np.bool_] = self.count_true(mask) > 0
+        return found
+
+    def max(self, values: Floats) -> Floats:
+        """Largest value of each group; NaN for a group without one."""
+        largest = np.full(self.count, -np.inf)
+        known = ~np.isnan(values)
+        if self.label is None:
+            largest[0] = values.max(where=known, initial=-np.inf)
+        else:
+            known &= self.label >= 0
+            np.maximum.at(largest, self.label[known], values[known])
+        return np.where(largest == -np.inf, np.nan, largest)
+
+
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """A partition of a surface's faces, with the vertices that go with each part.
+
+    kind: `whole`, `component` or `region`. face: (F,) group of each face. names: what each is called, if not by number.
+    """
+
+    kind: str
+    count: int
+    face: Index
+    faces: Segments
+    vertices: Segments
+    names: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        self.face.setflags(write=False)
+
+    def scope(self, group: int) -> str:
+        """How a group is named in checks and messages."""
+        return self.kind if self.kind == "whole" else f"{self.kind} {self.names[group] if self.names else group}"
+
+    def edges(self, surface: Incidence) -> Segments:
+        """The edges of the surface whose parts these are."""
+        return _edges(self, surface)
+
+    def of(self, surface: Incidence, element: str) -> Segments:
+        """The segments of `vertex`, `edge` or `face` values."""
+        return self.edges(surface) if element == "edge" else {"vertex": self.vertices, "face": self.faces}[element]
+
+
+@cached
+def _edges(groups: Groups, surface: Incidence) -> Segments:
+    lower_end, vertex = surface.edges.a, groups.vertices.label
+    return Segments(None if vertex is None else vertex[lower_end], groups.count, len(lower_end))
+
+
+def whole(surface: Incidence, kind: str = "whole", names: tuple[str, ...] = ()) -> Groups:
+    """The whole surface as one group; unreferenced vertices have only nulls to add."""
+    faces, vertices = (Segments(None, 1, size) for size in (surface.n_faces, surface.n_vertices))
+    face = np.broadcast_to(np.int32(0), surface.n_faces)  # without memory of its own
+    return Groups(kind, 1, face, faces, vertices, names)
+
+
+def by_label(surface: Incidence, face: Index, count: int, kind: str, names: tuple[str, ...] = ()) -> Groups:
+    """Groups of faces that share no vertex, given the group of each face."""
+    if count == 1:
+        return whole(surface, kind, names)
+    vertex = np.full(surface.n_vertices, -1, np.int32)
+    vertex[surface.faces.ravel()] = np.repeat(face, 3)
+    faces, vertices = (Segments(label, count, len(label)) for label in (face, vertex))
+    return Groups(kind, count, face, faces, vertices, names)

@@ -1,0 +1,234 @@
+"""Neighbourhoods of vertices: which vertices lie within some rings of edges or within a radius, as sparse rows.
+
+Rows are made in blocks, so that memory stays bounded however large the mesh and the neighbourhood are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from ..errors import InputError
+from ..support.blocks import for_each, slices
+from .scale import Scale
+from .surface import Surface
+from .topology import Index, Mask
+from .triangles import Floats, dot, span
+
+# Entries that a block of rows may be expected to have.
+_ENTRIES_PER_BLOCK = 1 << 21
+_ROWS_PER_BLOCK = 1 << 16
+# Entries, counted before repetitions are merged, beyond which a block is halved.
+_LARGEST_BLOCK = 1 << 25
+# A row is given up where one more step meets this many times the vertices that are usual, and at least so many.
+_USUAL, _ALWAYS = 64, 1 << 10
+
+Pattern = csr_array
+
+# Vertices around each, as a usual mesh has them, beyond which time would be out of proportion to the mesh.
+_MOST_EXPECTED = 10_000
+
+# Neighbourhoods that several passes look at are kept while they have no more entries than this (5 bytes each).
+_MOST_KEPT = 1 << 26
+_KEPT: WeakKeyDictionary[Surface, tuple[Scale, list[tuple[slice, Pattern]]]] = WeakKeyDictionary()
+
+
+def adjacency(surface: Surface) -> Pattern:
+    """(V, V) boolean: the ends of the edges at each vertex, and the vertex itself where a face uses it."""
+    own = np.flatnonzero(surface.referenced).astype(np.int32)
+    one = np.concatenate([surface.edges.a, surface.edges.b, own])
+    other = np.concatenate([surface.edges.b, surface.edges.a, own])
+    count, vertices = len(one), surface.n_vertices
+    # The transposition of a sparse matrix is a counting sort.
+    rows = csr_array((other, one, np.arange(count + 1, dtype=np.int32)), shape=(count, vertices)).tocsc()
+    return csr_array((np.ones(count, bool), rows.data, rows.indptr), shape=(vertices, vertices))
+
+
+def mean_edge_length(surface: Surface) -> float:
+    """The mean length of all edges, in the unit of computation."""
+    total = 0.0
+    for block in slices(len(surface.edges)):
+        along = span(surface.xyz, surface.edges.a[block], surface.edges.b[block])
+        total += float(np.sqrt(dot(along, along)).sum())
+    return total / len(surface.edges)
+
+
+def radius_of(surface: Surface, scale: Scale) -> float:
+    """The radius of a scale that is none of rings, in the unit of computation."""
+    if scale.kind == "edges":
+        return scale.size * mean_edge_length(surface)
+    with np.errstate(over="ignore"):  # a radius that no double holds reaches everything
+        return float(np.ldexp(scale.size, -surface.unit_exponent))
+
+
+def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Pattern]]:
+    """Blocks of vertices, and for each block a boolean CSR (rows of the block, V): the vertices around each vertex.
+
+    Every vertex is in its own neighbourhood; one that no face uses has an empty row. Rings: all vertices reached over
+    so many edges. Radius: all vertices at most so far away in space that are connected with it by edges whose ends all
+    are: a sheet that passes near is not mixed in. Columns within a row are in no order. Rows that would have far
+    more vertices than is usual at the scale, next to vertices of huge degree, are left empty.
+    """
+    kept = _KEPT.get(surface)
+    if kept is not None and kept[0] == scale:
+        yield from kept[1]
+        return
+    _KEPT.pop(surface, None)
+    grow = _Rings(surface, scale) if scale.kind == "rings" else _Balls(surface, scale)
+    size = max(min(_ROWS_PER_BLOCK, _ENTRIES_PER_BLOCK // grow.expected), 1)
+    entries, found = 0, []
+    for block in slices(surface.n_vertices, size):
+        for place, rows in _grown(grow, block):
+            entries += rows.nnz
+            if scale.kind != "rings" and entries > _MOST_EXPECTED * surface.n_vertices:
+                raise _too_far(surface, f"more than {_MOST_EXPECTED:,}")
+            if entries <= _MOST_KEPT:
+                found.append((place, rows))
+            else:
+                found.clear()
+            yield place, rows
+    if entries <= _MOST_KEPT:
+        _KEPT[surface] = scale, found
+
+
+def _too_far(surface: Surface, count: str) -> InputError:
+    return InputError(
+        f"the radius takes in {count} vertices around each, at most {_MOST_EXPECTED:,} expected",
+        path=surface.file.path if surface.file is not None else None,
+        hint="a smaller --radius, or a coarser mesh",
+    )
+
+
+def forget(surface: Surface) -> None:
+    """Let go of the neighbourhoods that are kept of a surface."""
+    _KEPT.pop(surface, None)
+
+
+def _grown(grow: _Rings | _Balls, block: slice) -> Iterator[tuple[slice, Pattern]]:
+    """The rows of a block, or of its halves where they are too many entries."""
+    rows = grow.rows(block)
+    if rows is not None:
+        yield block, rows
+        return
+    middle = (block.start + block.stop) // 2
+    yield from _grown(grow, slice(block.start, middle))
+    yield from _grown(grow, slice(middle, block.stop))
+
+
+class _Rings:
+    """Neighbourhoods of some rings."""
+
+    def __init__(self, surface: Surface, scale: Scale) -> None:
+        self.near = adjacency(surface)
+        self.count = int(scale.size)
+        self.expected = 3 * self.count * (self.count + 1) + 1
+        self.most = max(_USUAL * self.expected, _ALWAYS)
+        self.degree = np.diff(self.near.indptr).astype(np.float64)
+
+    def rows(self, block: slice) -> Pattern | None:
+        """The rows of a block; None if they are too many for one."""
+        rows = self.near[block]
+        for _ in range(self.count - 1):
+            small = _without_huge(rows, self.degree, self.most)
+            if small is None:
+                return None
+            rows = small @ self.near
+        return rows
+
+
+class _Balls:
+    """The connected parts of balls, grown edge by edge."""
+
+    def __init__(self, surface: Surface, scale: Scale) -> None:
+        self.surface, self.near = surface, adjacency(surface)
+        self.radius = radius_of(surface, scale)
+        mean = mean_edge_length(surface)
+        reach = self.radius / mean if mean > 0 else 1.0
+        self.expected = min(int(4 * min(reach, 1e3) ** 2) + 1, surface.n_vertices)
+        if self.expected > _MOST_EXPECTED:
+            raise _too_far(surface, f"about {self.expected:,}")
+        self.most = max(_USUAL * self.expected, _ALWAYS)
+        self.degree = np.diff(self.near.indptr).astype(np.float64)
+
+    def rows(self, block: slice) -> Pattern | None:
+        """The rows of a block; None if they are too many for one."""
+        start = np.flatnonzero(self.surface.referenced[block]).astype(np.int32)
+        shape = (block.stop - block.start, self.surface.n_vertices)
+        frontier = csr_array((np.ones(len(start), bool), (start, start + np.int32(block.start))), shape=shape)
+        previous = csr_array(shape, dtype=bool)
+        reached = frontier
+        while frontier.nnz:
+            work = frontier @ self.degree
+            huge = work + np.diff(reached.indptr) > self.most
+            if huge.any():
+                frontier, previous, reached = (_emptied(rows, huge) for rows in (frontier, previous, reached))
+            if work[~huge].sum() + reached.nnz > _LARGEST_BLOCK and block.stop - block.start > 1:
+                return None
+            # What is one edge further was met in this step or the last two.
+            found = _within(self.surface, frontier @ self.near, block, self.radius)
+            fresh = (found > frontier) > previous
+            fresh.eliminate_zeros()
+            previous, frontier = frontier, fresh
+            reached = reached + fresh
+        return reached
+
+
+def _without_huge(rows: Pattern, degree: Floats, most: int) -> Pattern | None:
+    """The rows whose next step is small enough, the others emptied; None if together they are too many."""
+    work = rows @ degree
+    huge = work > most
+    if work[~huge].sum() > _LARGEST_BLOCK and rows.shape[0] > 1:
+        return None
+    return _emptied(rows, huge) if huge.any() else rows
+
+
+def _emptied(rows: Pattern, which: Mask) -> Pattern:
+    """The pattern with some rows empty."""
+    count = np.diff(rows.indptr)
+    kept = np.repeat(~which, count)
+    total = np.zeros(len(count) + 1, np.int32)
+    np.cumsum(np.where(which, 0, count), out=total[1:])
+    return csr_array((rows.data[kept], rows.indices[kept], total), shape=rows.shape)
+
+
+def _within(surface: Surface, rows: Pattern, block: slice, radius: float) -> Pattern:
+    """Those entries that are no further from the vertex of their row than the radius."""
+    count = np.diff(rows.indptr)
+    at = np.repeat(np.arange(block.start, block.stop, dtype=np.int32), count)
+    square = np.zeros(len(at))
+    for x in surface.xyz:
+        step = x[rows.indices] - x[at]
+        square += step * step
+    kept = square <= radius * radius
+    total = np.zeros(len(at) + 1, np.int32)
+    np.cumsum(kept, out=total[1:])
+    indices = rows.indices[kept]
+    return csr_array((np.ones(len(indices), bool), indices, total[rows.indptr]), shape=rows.shape)
+
+
+def sums(surface: Surface, scale: Scale, data: Floats) -> Floats:
+    """(V, k) sums over the neighbourhood of each vertex of data (V, k), which must be finite; 0 where it is empty."""
+    total = np.empty(data.shape)
+
+    def add(found: tuple[slice, Pattern]) -> None:
+        block, rows = found
+        total[block] = as_weights(rows) @ data
+
+    for_each(neighbourhoods(surface, scale), add)
+    return total
+
+
+def as_weights(rows: Pattern) -> csr_array:
+    """The same pattern with a weight of one, for products with columns."""
+    return csr_array((np.ones(rows.nnz), rows.indices, rows.indptr), shape=rows.shape)
+
+
+def sizes(surface: Surface, scale: Scale) -> Index:
+    """(V,) how many vertices each neighbourhood has, the vertex itself included."""
+    count = np.zeros(surface.n_vertices, np.int32)
+    for block, rows in neighbourhoods(surface, scale):
+        count[block] = np.diff(rows.indptr)
+    return count

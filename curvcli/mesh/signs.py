@@ -1,0 +1,125 @@
+"""Signs of determinants, decided exactly: a filter in floating point, then sums that lose nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..support.compensated import two_difference, two_product
+from .triangles import EPSILON, Floats, Vector, dot
+
+Sign = NDArray[np.int8]
+# The sign of something in the columns it is given.
+_Decide = Callable[[NDArray[np.intp]], Sign]
+
+# The error of a determinant of vectors whose components are at most 1 in size, with room.
+_ROUNDING = 64 * EPSILON
+# Components below this, but not 0, lose digits of their products to the end of the range of doubles.
+_SMALL = 2.0**-280
+# Sums whose sign is not found after so many passes are left to rational arithmetic.
+_PASSES = 12
+# The permutations of three columns, with their signs.
+_EVEN, _ODD = ((0, 1, 2), (1, 2, 0), (2, 0, 1)), ((0, 2, 1), (1, 0, 2), (2, 1, 0))
+
+
+def sides(normal: Vector, other: Floats) -> Sign:
+    """The sign of normal · other where rounding leaves no doubt, else 0; all components at most 1 in size.
+
+    normal: cross products of two such vectors each.
+    """
+    determinant = dot(normal, other)
+    found: Sign = (determinant > _ROUNDING).view(np.int8) - (determinant < -_ROUNDING).view(np.int8)
+    return found
+
+
+def exact_sides(one: Floats, two: Floats, three: Floats) -> Sign:
+    """The signs of det(one, two, three), none of them 0: vectors (3, n), components at most 1 in size, none all zero.
+
+    Where the determinant is 0 the sign is that after an infinitesimal disturbance: of every component, and larger by
+    far for the first vector than for the second, and for the second than for the third. Asked of vectors in the order
+    of a list, all signs are those of one list in general position.
+    Source: Edelsbrunner and Mücke, Simulation of simplicity, 1990.
+    """
+    found = _determinants(one, two, three)
+    for decide in _disturbed(one, two, three):
+        rest = np.flatnonzero(found == 0)
+        if not len(rest):
+            break
+        found[rest] = decide(rest)
+    return found
+
+
+def _disturbed(one: Floats, two: Floats, three: Floats) -> Iterator[_Decide]:
+    """What the determinant's sign is where all before it are 0: the terms of its expansion from the largest down."""
+
+    def minor(a: Floats, b: Floats, without: int, turn: int) -> _Decide:
+        i, j = (without + 1) % 3, (without + 2) % 3  # cyclic: the sign of the cofactor is in the order
+        return lambda rest: np.int8(turn) * _sign_of_difference(a[i, rest], b[j, rest], a[j, rest], b[i, rest])
+
+    def component(without: int, first: int) -> _Decide:
+        last = 3 - without - first
+        turn = np.int8(1 if (first, without, last) in _EVEN else -1)
+        return lambda rest: turn * np.sign(three[last, rest]).astype(np.int8)
+
+    for column in range(3):
+        yield minor(two, three, column, 1)
+    for column in range(3):
+        yield minor(one, three, column, -1)
+        for first in range(3):
+            if first != column:
+                yield component(column, first)
+
+
+def _sign_of_difference(a: Floats, b: Floats, c: Floats, d: Floats) -> Sign:
+    """The sign of a b − c d."""
+    ab, ab_rest = two_product(a, b)
+    cd, cd_rest = two_product(c, d)
+    # Rounding keeps the order: only where the rounded products agree do the rests decide.
+    found: Sign = np.where(ab != cd, np.sign(ab - cd), np.sign(ab_rest - cd_rest)).astype(np.int8)
+    return found
+
+
+def _determinants(one: Floats, two: Floats, three: Floats) -> Sign:
+    """The signs of det(one, two, three)."""
+    terms = []
+    for order, turn in (*((each, 1.0) for each in _EVEN), *((each, -1.0) for each in _ODD)):
+        a, b, c = (vector[row] for vector, row in zip((one, two, three), order, strict=True))
+        for part in two_product(a, b):
+            terms += [turn * each for each in two_product(part, c)]
+    found = _sign_of_sum(np.array(terms))
+    size = np.abs([one, two, three])
+    lost = ((size < _SMALL) & (size > 0)).any(axis=(0, 1)) | (found == 2)
+    for k in np.flatnonzero(lost):
+        found[k] = _rational(*(vector[:, k].tolist() for vector in (one, two, three)))
+    return found
+
+
+def _rational(*rows: list[float]) -> int:
+    """The sign of one determinant."""
+    a, b, c = ([Fraction(x) for x in row] for row in rows)
+    total = sum(a[i] * b[j] * c[k] for i, j, k in _EVEN) - sum(a[i] * b[j] * c[k] for i, j, k in _ODD)
+    return (total > 0) - (total < 0)
+
+
+def _sign_of_sum(terms: Floats) -> Sign:
+    """(n,) signs of the exact sums of terms (m, n); 2 where it is not found.
+
+    Each pass replaces the terms by others of the same sum: the last by the rounded sum, those before by what rounding
+    took away. The sign is that of the last once it outweighs all others.
+    """
+    found = np.full(terms.shape[1], 2, np.int8)
+    open_, count = np.arange(terms.shape[1]), len(terms)
+    for _ in range(_PASSES):
+        for k in range(1, count):
+            total, error = two_difference(terms[k], -terms[k - 1])
+            terms[k - 1], terms[k] = error, total
+        rest = np.abs(terms[:-1]).sum(axis=0) * (1 + 2 * count * EPSILON)
+        known = (np.abs(terms[-1]) > rest) | ((terms[-1] == 0) & (rest == 0))
+        found[open_[known]] = np.sign(terms[-1, known]).astype(np.int8)
+        open_, terms = open_[~known], terms[:, ~known]
+        if not len(open_):
+            break
+    return found

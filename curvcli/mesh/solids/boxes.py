@@ -1,0 +1,146 @@
+"""A tree of axis-parallel boxes: candidates for contact, found level by level in whole arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...support.blocks import slices
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+# Children of a node, and candidates that are expanded at a time.
+_WIDTH = 4
+_AT_ONCE = 1 << 15
+_BITS = 16
+
+
+class BoxTree:
+    """One tree of boxes for each group of items; a node holds up to four consecutive nodes of the level below.
+
+    low, high: (3, n) corners of the items' boxes. group: (n,) group of each item; every group has an item.
+    Items are sorted along a space-filling curve, so building and searching take time near n log n.
+    """
+
+    def __init__(self, low: Floats, high: Floats, group: NDArray[np.integer[Any]], groups: int) -> None:
+        self.groups = groups
+        self.order = _along_a_curve(low, high, group, groups)
+        count = np.bincount(group, minlength=groups)
+        # Rows that are not contiguous would be copied whole for every few that are taken of them.
+        self._low, self._high = ([np.ascontiguousarray(rows[:, self.order])] for rows in (low, high))
+        self._first = [_starts(count)]
+        while count.max() > 1:
+            fewer = -(-count // _WIDTH)
+            first, below = _starts(fewer), self._first[-1]
+            number = np.arange(first[-1]) - np.repeat(first[:-1], fewer)
+            start = np.repeat(below[:-1], fewer) + _WIDTH * number
+            self._low.append(np.ascontiguousarray(np.minimum.reduceat(self._low[-1], start, axis=1)))
+            self._high.append(np.ascontiguousarray(np.maximum.reduceat(self._high[-1], start, axis=1)))
+            self._first.append(first)
+            count = fewer
+
+    def members(self, group: Ints) -> tuple[Ints, Ints]:
+        """Where `order` has the items of some groups: the place of the first, and how many there are."""
+        first = self._first[0]
+        return first[group], first[group + 1] - first[group]
+
+    def meeting(self, one: Ints, other: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
+        """Items of two groups whose boxes meet, in pieces: number of the pair of groups, item and item.
+
+        one, other: (n,) groups of each pair. Of a group with itself each pair of items comes once, and no item with
+        itself.
+        """
+        same = one == other
+        stack = [(len(self._first) - 1, np.arange(len(one)), one, other)]
+        while stack:
+            level, pair, a, b = stack.pop()
+            if len(pair) > _AT_ONCE:
+                stack += [(level, pair[part], a[part], b[part]) for part in slices(len(pair), _AT_ONCE)]
+                continue
+            kept = self._overlap(level, a, b) & ~(same[pair] & (a > b))
+            pair, a, b = pair[kept], a[kept], b[kept]
+            if level:
+                where, a = self._below(level, one[pair], a)
+                pair, b = pair[where], b[where]
+                where, b = self._below(level, other[pair], b)
+                stack.append((level - 1, pair[where], a[where], b))
+            elif len(pair):
+                distinct = a != b
+                yield pair[distinct], self.order[a[distinct]], self.order[b[distinct]]
+
+    def _overlap(self, level: int, a: Ints, b: Ints) -> Mask:
+        low, high = self._low[level], self._high[level]
+        meet = np.ones(len(a), bool)
+        for axis in range(3):
+            meet &= (low[axis].take(a) <= high[axis].take(b)) & (low[axis].take(b) <= high[axis].take(a))
+        return meet
+
+    def holding(self, points: Floats, group: Ints, above: bool = False) -> Iterator[tuple[Ints, Ints]]:
+        """Items of one group each whose boxes hold a point, in pieces: number of the point, and item.
+
+        points: (3, n). above: also boxes that the ray from the point along the third axis meets.
+        """
+        stack = [(len(self._first) - 1, np.arange(len(group)), group)]
+        while stack:
+            level, point, node = stack.pop()
+            if len(point) > _AT_ONCE:
+                stack += [(level, point[part], node[part]) for part in slices(len(point), _AT_ONCE)]
+                continue
+            low, high = self._low[level], self._high[level]
+            kept = np.ones(len(point), bool)
+            for axis, row in enumerate(points):
+                at = row.take(point)
+                kept &= at <= high[axis].take(node)
+                if axis < 2 or not above:
+                    kept &= at >= low[axis].take(node)
+            point, node = point[kept], node[kept]
+            if level:
+                where, node = self._below(level, group[point], node)
+                stack.append((level - 1, point[where], node))
+            elif len(point):
+                yield point, self.order[node]
+
+    def _below(self, level: int, group: Ints, node: Ints) -> tuple[Ints, Ints]:
+        """The children of some nodes: where the parent stands among these, and the child's node."""
+        above, below = self._first[level], self._first[level - 1]
+        start = below[group] + _WIDTH * (node - above[group])
+        count = np.minimum(_WIDTH, below[group + 1] - start)
+        where = np.repeat(np.arange(len(node)), count)
+        return where, np.arange(len(where)) - np.repeat(np.cumsum(count) - count, count) + start[where]
+
+
+def _starts(count: Ints) -> Ints:
+    """(n + 1,) where runs of these lengths begin."""
+    return np.concatenate([[0], np.cumsum(count)])
+
+
+def _along_a_curve(low: Floats, high: Floats, group: NDArray[np.integer[Any]], groups: int) -> Ints:
+    """Items sorted by group, and within it along Morton's curve through the middles of their boxes."""
+    code = np.zeros(len(group), np.uint64)
+    for axis in range(3):
+        middle = low[axis] / 2 + high[axis] / 2
+        least, most = np.full(groups, np.inf), np.full(groups, -np.inf)
+        np.minimum.at(least, group, middle)
+        np.maximum.at(most, group, middle)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            place = (middle - least[group]) / (most - least)[group] * ((1 << _BITS) - 1)
+        code |= _spread(np.where(place > 0, place, 0).astype(np.uint64)) << np.uint64(axis)
+    return np.asarray(np.lexsort((code, group)), np.int64)
+
+
+def _spread(bits: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """16 bits with two zeros between each two."""
+    steps: tuple[Callable[[NDArray[np.uint64]], NDArray[np.uint64]], ...] = (
+        lambda x: (x | x << np.uint64(16)) & np.uint64(0x0000FF0000FF),
+        lambda x: (x | x << np.uint64(8)) & np.uint64(0x00F00F00F00F),
+        lambda x: (x | x << np.uint64(4)) & np.uint64(0x0C30C30C30C3),
+        lambda x: (x | x << np.uint64(2)) & np.uint64(0x249249249249),
+    )
+    for step in steps:
+        bits = step(bits)
+    return bits

@@ -1,0 +1,161 @@
+"""How closed surfaces lie inside one another, and which of them cross: depth by winding numbers.
+
+Boxes only save work. A cavity that touches the wall from inside is a cavity, and bodies that touch from outside are two
+bodies: what touches does not cross.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...support.blocks import slices
+from .boxes import BoxTree
+from .contacts import find_contacts, samples
+from .sides import INSIDE, OUTSIDE, ROUNDING, Floats, Ints, Mask, Sides
+
+# Pairs of faces in contact, of two surfaces, that are looked at for points on both sides.
+_CONTACTS = 20_000
+# Points of a surface that are tried, more each time, until one does not lie on the other surface.
+_TRIED = (1, 32, 4096)
+
+
+class Nesting(NamedTuple):
+    """depth: (n,) how many of the other surfaces each lies inside; 0 of those that cross another, which have none.
+
+    crossing: (m, 2) pairs that cross or coincide, ascending.
+    """
+
+    depth: Ints
+    crossing: Ints
+
+    def crosses(self) -> Mask:
+        """(n,) surfaces that cross or coincide with another one."""
+        mask = np.zeros(len(self.depth), bool)
+        mask[self.crossing.ravel()] = True
+        return mask
+
+
+def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integer[Any]], sign: Ints) -> Nesting:
+    """The nesting of closed surfaces.
+
+    xyz: (3, V). faces: (F, 3). surface: (F,) the surface of each face, -1 for none. sign: (n,) of their volumes, 0
+    within rounding.
+    """
+    n = len(sign)
+    low, high = _boxes(xyz, faces, surface, n)
+    root = np.zeros(1, np.int64)
+    meeting = BoxTree(low, high, np.zeros(n, np.int32), 1).meeting(root, root)
+    pairs = np.sort(
+        np.concatenate([np.zeros((2, 0), np.int64), *map(np.stack, (x[1:] for x in meeting))], axis=1), axis=0
+    )
+    pairs = pairs[:, _deep(low, high, *pairs)]
+    if not pairs.size:
+        return Nesting(np.zeros(n, np.int64), np.zeros((0, 2), np.int64))
+    one, other = pairs[:, np.lexsort(pairs[::-1])]
+    used, number = np.unique([one, other], return_inverse=True)
+    place = np.full(n + 1, -1, np.int64)  # the last for faces of no surface
+    place[used] = np.arange(len(used))
+    chosen = np.flatnonzero(place[surface] >= 0)
+    sides = Sides(xyz, faces[chosen], place[surface[chosen]], len(used))
+    found = _Search(sides, number.reshape(2, -1), low[:, used], high[:, used]).nesting(sign[used])
+    depth = np.zeros(n, np.int64)
+    depth[used] = found.depth
+    return Nesting(depth, used[found.crossing])
+
+
+def _boxes(
+    xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integer[Any]], n: int
+) -> tuple[Floats, Floats]:
+    """(3, n) corners of the boxes of the surfaces."""
+    low, high = np.full((3, n), np.inf), np.full((3, n), -np.inf)
+    for block in slices(len(faces)):
+        inside = np.flatnonzero(surface[block] >= 0)
+        which, corners = surface[block][inside], faces[block][inside].T.astype(np.intp)
+        for axis in range(3):
+            a, b, c = (xyz[axis].take(corner) for corner in corners)
+            np.minimum.at(low[axis], which, np.minimum(np.minimum(a, b), c))
+            np.maximum.at(high[axis], which, np.maximum(np.maximum(a, b), c))
+    return low, high
+
+
+def _deep(low: Floats, high: Floats, one: Ints, other: Ints) -> Mask:
+    """Whether boxes have more in common than a wall, beyond rounding: others belong to bodies side by side."""
+    reach = ROUNDING * np.maximum(np.abs(low), np.abs(high))
+    rounding = np.maximum(reach[:, one], reach[:, other])
+    depth = np.minimum(high[:, one], high[:, other]) - np.maximum(low[:, one], low[:, other])
+    thickness = np.minimum((high - low)[:, one], (high - low)[:, other])
+    deep: Mask = np.all((depth > rounding) | (thickness <= rounding), axis=0)
+    return deep
+
+
+class _Search:
+    """Pairs of surfaces whose boxes meet, and what is known of the sides of the one about the other.
+
+    inside, outside: (2, pairs) whether some point of the one lies there about the other, and of the other about the
+    one.
+    """
+
+    def __init__(self, sides: Sides, pairs: Ints, low: Floats, high: Floats) -> None:
+        self.sides, self.pairs = sides, pairs
+        one, other = pairs
+        contacts = find_contacts(sides, one, other)
+        self.crossing = np.zeros(len(one), bool)
+        self.crossing[contacts.crossing] = True
+        self.inside, self.outside = np.zeros((2, len(one)), bool), np.zeros((2, len(one)), bool)
+        self.inner = np.ones((2, len(one)), bool)
+        rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
+        for way, (a, b) in enumerate(((one, other), (other, one))):
+            slack = np.maximum(rounding[:, a], rounding[:, b])
+            self.inner[way] = ((low[:, a] >= low[:, b] - slack) & (high[:, a] <= high[:, b] + slack)).all(axis=0)
+        self.outside |= ~self.inner  # it reaches beyond the box
+        if len(contacts.pair):
+            found = samples(sides, contacts, _CONTACTS)
+            self._look(found.points, found.pair, np.where(found.first, 0, 1))
+        for tried in _TRIED:
+            self._try(tried)
+        self.crossing |= (self.inside & self.outside).any(axis=0)
+
+    def _look(self, points: Floats, pair: Ints, way: Ints) -> None:
+        """Note the sides of points of surfaces about the others of their pairs."""
+        for block in slices(len(pair)):
+            side = self.sides.of(points[:, block], self.pairs[1 - way[block], pair[block]])
+            for found, wanted in ((self.inside, INSIDE), (self.outside, OUTSIDE)):
+                of = side == wanted
+                found[way[block][of], pair[block][of]] = True
+
+    def _try(self, most: int) -> None:
+        """Look at some points of those surfaces whose side is not known yet."""
+        way, pair = np.nonzero(self.inner & ~(self.inside | self.outside) & ~self.crossing)
+        if not len(pair):
+            return
+        surface = self.pairs[way, pair]
+        first, members = self.sides.tree.members(surface)
+        taken = np.minimum(members, most)
+        row = np.repeat(np.arange(len(pair)), taken)
+        step = np.arange(len(row)) - np.repeat(np.cumsum(taken) - taken, taken)
+        corners = self.sides.corners(self.sides.tree.order[first[row] + step * members[row] // taken[row]])
+        self._look(corners[0], pair[row], way[row])
+        if most > 1:
+            self._look(corners.mean(axis=0), pair[row], way[row])
+
+    def nesting(self, sign: Ints) -> Nesting:
+        """Depths and crossing pairs; sign: of the volumes."""
+        (one, other), n = self.pairs, len(sign)
+        unknown = (~(self.inside | self.outside)).all(axis=0) & ~self.crossing
+        depth = np.zeros(n, np.int64)
+        for way in (0, 1):
+            within = self.inside[way] & ~self.crossing
+            np.add.at(depth, self.pairs[way][within], 1)
+        # A core that fills its cavity: of two coinciding surfaces the cavity holds the core, and nothing else is sound.
+        twins = np.flatnonzero(unknown)
+        filled = (depth[one[twins]] % 2 == 1) & (sign[one[twins]] * sign[other[twins]] < 0)
+        core = np.where(sign[one] > 0, one, other)[twins[filled]]
+        np.add.at(depth, core, 1)
+        crossing = self.crossing.copy()
+        crossing[twins[~filled]] = True
+        pairs = self.pairs[:, crossing].T
+        depth[pairs.ravel()] = 0
+        return Nesting(depth, pairs[np.lexsort(pairs.T[::-1])])

@@ -1,0 +1,71 @@
+"""Notices of solid patches: those that are inside out, and those that cross."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Notice
+from ...support.words import counted
+
+if TYPE_CHECKING:
+    from ..surface import Surface
+
+
+def of_solids(surface: Surface) -> Iterator[Notice]:
+    """The notices of a surface's solid patches, each named by its lowest face."""
+    solids = surface.solids
+    wrong = np.flatnonzero(solids.inside_out)
+    faces = solids.first_face[wrong] if len(wrong) else wrong
+    if surface.orient == "outward":
+        message = f"closed [patch|patches], named by [its|their] lowest face, turned outwards: {kinds(surface, wrong)}"
+        yield Notice.at("inside_out", faces, message, "--orient file keeps the sides that the file gives")
+    else:
+        yield Notice.at("inside_out", faces, _inside_out(surface, wrong), "--orient outward turns [it|them]")
+    crossing = np.unique(solids.crossing)
+    yield Notice.at(
+        "crossing_patches",
+        solids.first_face[crossing] if len(crossing) else crossing,
+        f"closed patches that cross or coincide, named by their lowest faces ({first_pair(surface)}): inside and "
+        "outside are undecided, the file's winding is kept, and the volume counts their overlap twice",
+        "unite the bodies in the program that made them, or move them apart; `curvcli check --require outward` refuses "
+        "such files",
+    )
+
+
+def _inside_out(surface: Surface, wrong: NDArray[np.intp]) -> str:
+    """What is wrong with these patches."""
+    cavities = int((surface.solids.depth[wrong] % 2).sum())
+    if not cavities:
+        return (
+            "closed [patch|patches] of negative volume, named by [its|their] lowest face: [its|their] normals point "
+            "inwards, into the [body|bodies], and signs are reversed"
+        )
+    if cavities == len(wrong):
+        return (
+            "closed [patch|patches] of positive volume, named by [its|their] lowest face: [its|their] normals point "
+            "out of the [cavity|cavities], into the solid, and signs are reversed"
+        )
+    return (
+        f"closed patches inside out, named by their lowest faces: {kinds(surface, wrong)}; their normals point into "
+        "the solid and signs are reversed"
+    )
+
+
+def kinds(surface: Surface, patches: NDArray[np.intp]) -> str:
+    """How many bodies and cavities there are among these patches."""
+    cavities = int((surface.solids.depth[patches] % 2).sum())
+    bodies = len(patches) - cavities
+    parts = [(bodies, "body", "bodies"), (cavities, "cavity", "cavities")]
+    return " and ".join(counted(*part) for part in parts if part[0])
+
+
+def first_pair(surface: Surface) -> str:
+    """The first two patches that cross, by their lowest faces."""
+    if not len(surface.solids.crossing):
+        return ""
+    one, other = surface.solids.first_face[surface.solids.crossing[0]]
+    return f"faces {one} and {other}" if len(surface.solids.crossing) == 1 else f"first: faces {one} and {other}"

@@ -1,0 +1,112 @@
+"""Appearance: how tables, coloured meshes and pictures look, and the column that colours them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..analysis.result import Result
+from ..curvatures.quantity import Quantity
+from ..curvatures.registry import passes
+from ..errors import UsageError
+from ..support.words import suggestion
+from .pictures.framing import Look
+
+if TYPE_CHECKING:
+    from .pictures.colors import ColorScale
+    from .pictures.legend import Colored
+
+
+# What colours a mesh when nothing is asked for: the first of these that was computed.
+COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """How tables, coloured meshes and pictures look.
+
+    color_by: the columns of a picture; the first of them colours a mesh. quality: whether `.ply` has that column once
+    more as `quality`, the name that MeshLab colours by.
+    """
+
+    color_by: tuple[str, ...] = ()
+    cmap: str | None = None
+    value_range: str | None = None
+    precision: str | int = "shortest"
+    quality: bool = False
+    look: Look = field(default_factory=Look)
+
+
+DEFAULT = Appearance()
+
+
+def vertex_quantities(chosen: list[str]) -> dict[str, Quantity]:
+    """The vertex columns that were computed, each with its quantity."""
+    return {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
+
+
+def along_edges() -> dict[str, Quantity]:
+    """The numbers of edges, each with its quantity."""
+    return {column: q for q in passes.quantities("edge") for column in q.columns if not q.vector}
+
+
+def colored_quantity(name: str, chosen: list[str]) -> Quantity:
+    """The quantity whose column colours the mesh, or its edges: these are computed with every table of edges."""
+    columns = vertex_quantities(chosen)
+    along = along_edges()
+    if name in along and name not in columns:
+        return along[name]
+    if name not in columns:
+        offered = vertex_quantities([quantity.name for quantity in passes.quantities("vertex")])
+        if name in offered:
+            raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
+        way_out = suggestion(name, [*offered, *along], "`curvcli passes` lists them")
+        raise UsageError(f"--color-by {name}: no such column of vertices{way_out}")
+    return columns[name]
+
+
+def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
+    """A column with the colours that it has in every output."""
+    from .pictures.colors import categorize, colorize
+    from .pictures.floor import edge_floor, floor
+    from .pictures.legend import Colored
+
+    quantity = colored_quantity(name, analysis.chosen)
+    if quantity.on == "edge":
+        values, theta = (analysis.edges[key].astype(np.float64) for key in (name, "theta"))
+        flat = edge_floor(analysis, theta) if quantity.signed else None
+        cmap, value_range = appearance.cmap, appearance.value_range
+        scale = colorize(values, cmap=cmap, value_range=value_range, signed=quantity.signed, floor=flat)
+        return Colored(name, quantity, scale)
+    if quantity.labels:
+        return Colored(name, quantity, categorize(analysis.columns[name], quantity.labels))
+    values = np.where(analysis.surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
+    scale = colorize(
+        values,
+        cmap=appearance.cmap,
+        value_range=appearance.value_range,
+        signed=quantity.signed or quantity.vector,
+        ignore=analysis.surface.boundary,
+        floor=floor(analysis, quantity, values),
+    )
+    return Colored(name, quantity, scale)
+
+
+def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] | None:
+    """The column that colours the surface and its colours; None when no column was computed."""
+    chosen = (
+        tuple(name for name in appearance.color_by if name in vertex_quantities(analysis.chosen))[:1]
+        or tuple(name for name in COLOR_BY if name in analysis.chosen)[:1]
+    )
+    return (chosen[0], colored(analysis, chosen[0], appearance).scale) if chosen else None
+
+
+def panels(appearance: Appearance, chosen: list[str], suffix: str) -> tuple[str, ...]:
+    """The columns that a picture shows: those asked for, else all numbers in histograms and one column elsewhere."""
+    if appearance.color_by:
+        return appearance.color_by
+    if suffix == ".hist.png":
+        return tuple(name for name, q in vertex_quantities(chosen).items() if not q.vector and not q.labels)
+    return tuple(name for name in (*COLOR_BY, "status") if name in chosen)[:1]

@@ -1,0 +1,1 @@
+"""Coloured meshes, one format a file."""

@@ -1,0 +1,32 @@
+"""What a mesh can have beside its points and faces, for the writers of all formats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..tables.write import Column
+
+# The corner indices of all polygons one after the other, and how many corners each has.
+Polygons = tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]
+
+
+class Parts(TypedDict, total=False):
+    """Keywords of every writer; each format keeps what it can hold.
+
+    polygons: the faces of the file, instead of the triangles. vertex_colors: (V, 3) red, green, blue.
+    vertex_properties, face_properties: one value per vertex, per face or polygon; NaN is null. comments: lines.
+    triangles: (F, 3) for what holds nothing else, where they are not the faces. active: the property that viewers
+    colour by at first.
+    """
+
+    polygons: Polygons | None
+    vertex_colors: NDArray[np.uint8] | None
+    vertex_properties: Mapping[str, Column] | None
+    face_properties: Mapping[str, Column] | None
+    comments: Iterable[str]
+    triangles: NDArray[np.integer[Any]] | None
+    active: str | None

@@ -1,0 +1,73 @@
+"""Meshes by suffix, and what of the input's own properties stands beside ours."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, BinaryIO, Unpack
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Notice
+from ...support.words import agree
+from ..tables.write import Column
+from .obj import write_obj
+from .parts import Parts
+from .ply import write_ply
+from .stl import write_stl
+
+_POSITION = ("x", "y", "z")
+# A viewer blends alpha with whatever colours it finds, so it belongs to the colours it came with.
+_COLOR = ("red", "green", "blue", "alpha")
+
+
+def write_mesh(
+    stream: BinaryIO, suffix: str, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
+) -> tuple[Notice, ...]:
+    """Write points (V, 3) and faces (F, 3) in the format of the suffix, with those parts that it can hold.
+
+    PLY and VTK hold everything, OBJ and glTF colours, STL the triangles alone. Returns what was lost without being
+    asked.
+    """
+    if suffix == ".ply":
+        return write_ply(stream, points, faces, **parts)
+    if suffix == ".obj":
+        write_obj(stream, points, faces, **parts)
+    elif suffix in (".vtp", ".vtu"):
+        from .vtk import write_vtk
+
+        return write_vtk(stream, suffix, points, faces, **parts)
+    elif suffix == ".glb":
+        from .glb import write_glb
+
+        triangles = parts.get("triangles")
+        return write_glb(stream, points, faces if triangles is None else triangles, parts.get("vertex_colors"))
+    elif suffix == ".stl":
+        return write_stl(stream, points, faces)
+    else:
+        raise ValueError(f"{suffix}: no mesh is written with this suffix")
+    return ()
+
+
+def beside_input(
+    ours: Mapping[str, Column], inputs: Mapping[str, Column], *, colored: bool = False
+) -> tuple[dict[str, Column], tuple[Notice, ...]]:
+    """The input's own properties followed by ours; where names meet, the input's becomes `input_NAME`.
+
+    colored: our own colours are written too, so that the input's red, green, blue and alpha are renamed.
+    """
+    taken = {*ours, *_POSITION, *(_COLOR if colored else ())}
+    merged: dict[str, Column] = {}
+    renamed = []
+    for name, column in inputs.items():
+        free = name
+        while free in taken or free in merged or (free != name and free in inputs):
+            free = f"input_{free}"
+        if free != name:
+            renamed.append(f"{name} -> {free}")
+        merged[free] = column
+    merged |= ours
+    if not renamed:
+        return merged, ()
+    message = agree(len(renamed), "[property|properties] of the input with a name that is taken: ") + ", ".join(renamed)
+    return merged, (Notice("renamed_properties", len(renamed), message, "the values are kept under the new names"),)

@@ -1,0 +1,1 @@
+"""Pictures, histograms and colours."""

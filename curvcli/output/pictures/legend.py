@@ -1,0 +1,155 @@
+"""What a picture says of a column in words: its unit, the ends of its range, and what they cut."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...curvatures.engine import schedule
+from ...curvatures.quantity import CELL_AREA, Quantity
+from ...curvatures.registry import passes
+from ...support.words import counted
+from .colors import ColorScale, parse_range
+
+if TYPE_CHECKING:
+    from ...analysis.result import Result
+
+_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_BOLD = str.maketrans("", "", "*")
+
+
+@dataclass(frozen=True)
+class Colored:
+    """A column with its colours: what one panel of a picture shows."""
+
+    name: str
+    quantity: Quantity
+    scale: ColorScale
+
+    def unit(self, length: str | None) -> str:
+        """The unit with raised exponents, empty for a pure number or labels."""
+        exponent = self.quantity.length_exponent
+        if exponent == 0:
+            return ""
+        return (length or "length") + ("" if exponent == 1 else raised(exponent))
+
+    @property
+    def symbol(self) -> str:
+        """The symbol, empty where it is just the name."""
+        symbol = self.quantity.symbol.translate(_BOLD)
+        if self.quantity.vector:
+            symbol = f"{self.name[-1]} of {symbol}"
+        return "" if symbol == self.name else symbol
+
+
+def raised(number: int) -> str:
+    """An integer as an exponent."""
+    return str(number).translate(_RAISED)
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number for people, with a minus sign and a power of ten where it is large or small."""
+    text = f"{value:.{digits}g}"
+    mantissa, e, power = text.partition("e")
+    if e:
+        text = f"{mantissa}·10{raised(int(power))}"
+    return text.replace("-", "−")
+
+
+def range_words(value_range: str | None, signed: bool) -> str:
+    """How the ends of a colour map were chosen."""
+    low, _, central = parse_range(value_range)
+    if low is not None:
+        return "range as asked"
+    if signed:
+        return f"p{98 if central is None else central:g} of |values|"
+    share = 96 if central is None else central
+    return f"p{50 - share / 2:02g} to p{50 + share / 2:02g}"
+
+
+def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> str:
+    """The range of a column's colours, how it was chosen, and how many values lie outside it."""
+    if scale.low is None or scale.high is None:
+        return "undefined at every vertex"
+    behind = f" {unit}" if unit else ""
+    parts = ((scale.clipped_below, "below"), (scale.clipped_above, "above"))
+    cut = [f"{count:,} {where}" for count, where in parts if count]
+    if scale.low == scale.high and not cut:
+        of = " within rounding" if scale.rounded is not None else ""
+        return f"{number(scale.low)}{behind}{of} wherever defined"
+    digits = next((d for d in range(4, 17) if number(scale.low, d) != number(scale.high, d)), 17)
+    ends = f"{number(scale.low, digits)} to {number(scale.high, digits)}{behind}"
+    # Percentiles cut something, unless they would tell values apart by their rounding: then the range is that of all.
+    words = range_words(value_range, scale.signed) if cut or value_range is not None else "all values"
+    settled = "" if scale.rounded is None else f", {int(scale.rounded.sum()):,} are 0 within rounding"
+    return f"{ends} ({words}), cuts {' and '.join(cut) or 'nothing'}{settled}"
+
+
+def sentence(colored: Colored, value_range: str | None, length: str | None) -> str:
+    """One line for the terminal: the range of a column, how it was chosen, and what it leaves out."""
+    scale = colored.scale
+    if scale.categories:
+        return f"{colored.name}: " + ", ".join(f"{one.count:,} {one.name}" for one in scale.categories)
+    undefined = f"; {scale.nulls:,} undefined" if scale.nulls and scale.low is not None else ""
+    return f"{colored.name}: {range_text(scale, value_range, colored.unit(length))}{undefined}"
+
+
+def mesh_name(analysis: Result) -> str:
+    """The name of the mesh's file without its folder."""
+    file = analysis.surface.file
+    return os.path.basename(file.path) if file is not None and file.path not in (None, "-") else "mesh"
+
+
+def about(analysis: Result, columns: Sequence[Colored]) -> list[str]:
+    """The mesh, and the conventions that the columns shown depend on."""
+    surface = analysis.surface
+    vertices = counted(int(surface.referenced.sum()), "vertex", "vertices")
+    shape = f"{mesh_name(analysis)}: {vertices}, {counted(surface.n_faces, 'face')}"
+    return [shape, *conventions(analysis, [one.quantity for one in columns])]
+
+
+def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
+    """The choices that the columns shown depend on."""
+    chosen = analysis.conventions
+    told = []
+    if any(quantity.mean_degree for quantity in quantities):
+        told.append("H = κ₁ + κ₂" if chosen.mean == "sum" else "H = (κ₁ + κ₂)/2")
+    if any(quantity.signed and quantity.mean_degree for quantity in quantities):
+        told[-1] += ", positive where convex"
+    if any(_divided_by_area(quantity, chosen.area) for quantity in quantities):
+        told.append(f"area {chosen.area}")
+    if chosen.weld != "none":
+        told.append(f"weld {chosen.weld}")
+    return told
+
+
+def _divided_by_area(quantity: Quantity, area: str) -> bool:
+    """Whether it follows from the area that was chosen for `K_density`."""
+    return any(CELL_AREA in one.needs for one in schedule(passes, [quantity.name], area))
+
+
+def ticks(low: float, high: float, room: int, whole: bool = False) -> tuple[list[float], list[str], int]:
+    """Places and labels of about `room` ticks from low to high, in units of 10 to the power that comes third.
+
+    whole: only at whole numbers, which are written out.
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    size = max(abs(low), abs(high))
+    if low == high:
+        return [low], [number(low, 6)], 0
+    if high / 2 - low / 2 < 1e-4 * size and not whole:
+        return [low, high], [number(low, 6), f"+{number(high - low, 2)}"], 0
+    power = 0 if whole or 1e-2 <= size < 1e4 else max(-300, 3 * math.floor(math.log10(size) / 3))
+    first, last = low / 10.0**power, high / 10.0**power
+    locator = MaxNLocator(room, steps=[1, 2, 2.5, 5, 10], integer=whole)
+    found = [float(place) for place in locator.tick_values(first, last)]
+    step = found[1] - found[0]
+    digits = next(d for d in range(20) if d == 19 or abs(round(step, d) - step) < 1e-9 * step)
+    slack = 1e-9 * step
+    places = [round(place, digits) + 0.0 for place in found if first - slack <= place <= last + slack]
+    labels = [f"{place:.{digits}f}".replace("-", "−") for place in places]
+    return [place * 10.0**power for place in places], labels, power

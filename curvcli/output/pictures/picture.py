@@ -1,0 +1,165 @@
+"""The picture of a surface: a panel per column, each with its colour bar, what that cuts, and what is undefined."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..._version import __version__
+from ...analysis.resolution import STARS
+from ...support.words import counted
+from ..cells import MOST_FACES, Cells, own_cells
+from .camera import screen
+from .framing import Look, arrange
+from .legend import Colored, about, mesh_name, sentence
+from .panels import draw_bar, draw_title, legend
+from .render import Lines, Pixels, render
+from .sheet import LINE, Color, Item, Sheet
+
+if TYPE_CHECKING:
+    from ...analysis.result import Result
+
+_PANEL = (1200, 900)
+_SMALL_PANEL = (800, 680)
+_NONMANIFOLD: Color = (0.9, 0.0, 0.47)
+_MESH: Color = (0.1, 0.1, 0.1)
+_PLAIN = (200, 200, 200)
+
+
+def write_picture(
+    stream: BinaryIO, analysis: Result, columns: Sequence[Colored], look: Look, value_range: str | None
+) -> None:
+    """Write the surface as PNG, coloured by each of the columns; in plain grey if there are none.
+
+    Boundary edges and edges of more than two faces are drawn as lines; undefined values are grey.
+    Errors: MissingExtraError where the system cannot draw.
+    """
+    count = max(1, len(columns))
+    across, down, size = arrange(count, look.size, _PANEL if count == 1 else _SMALL_PANEL)
+    sheet = Sheet(size, look.background)
+    edge_ink: Color = (0.97, 0.97, 0.97) if sheet.dark else (0.0, 0.0, 0.0)
+    page = _Page(sheet, analysis, columns, value_range, across, down, edge_ink)
+    surface = analysis.surface
+    edges = np.stack([surface.edges.a, surface.edges.b], axis=1)
+    thick = max(1.5, min(page.picture) / 260)
+    lines = [
+        Lines(edges[surface.boundary_edges], edge_ink, thick),
+        Lines(edges[surface.nonmanifold_edges], _NONMANIFOLD, thick),
+    ]
+    plain = np.broadcast_to(np.array(_PLAIN, np.uint8), (surface.n_vertices, 3))
+    positions = screen(surface, look.view, look.up)
+    settings: dict[str, Any] = {"background": sheet.background, "mesh_color": _MESH if look.edges else None}
+
+    def draw(
+        colorings: Sequence[NDArray[np.uint8]], lines: Sequence[Lines], cells: Cells | None = None
+    ) -> list[Pixels]:
+        return render(positions, surface.faces, colorings, page.picture, lines=lines, cells=cells, **settings)
+
+    blended = [place for place, one in enumerate(columns) if not page.cut(one) and one.quantity.on == "vertex"]
+    pictures = draw([columns[place].scale.rgb for place in blended], lines)
+    shown = dict(zip(blended, pictures, strict=True))
+    for place, one in enumerate(columns):
+        if one.quantity.on == "edge":
+            bent = np.flatnonzero((one.scale.rgb != one.scale.undefined).any(axis=1) & page.unlike_0(one))
+            bent = bent[np.argsort(np.abs(np.nan_to_num(analysis.edges[one.name][bent])), kind="stable")]
+            tinted = Lines(edges[bent], edge_ink, 1.5 * thick, one.scale.rgb[bent])
+            shown[place] = draw([plain], [*lines, tinted])[0]
+        elif page.cut(one):
+            cells = own_cells(positions, surface.faces, one.scale.rgb, page.flat(one))
+            shown[place] = draw([], lines, cells)[0]
+    for place, pixels in shown.items() if columns else enumerate(draw([plain], lines)):
+        sheet.image(pixels, *page.corner(place))
+    page.draw()
+    told = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
+    stream.write(sheet.png({"Title": page.name, "Description": "\n".join(told), "Software": f"curvcli {__version__}"}))
+
+
+class _Page:
+    """Where everything stands on the sheet, and the words on it."""
+
+    def __init__(
+        self,
+        sheet: Sheet,
+        analysis: Result,
+        columns: Sequence[Colored],
+        value_range: str | None,
+        across: int,
+        down: int,
+        edge_ink: Color,
+    ) -> None:
+        self.sheet, self.columns, self.across = sheet, columns, across
+        self.unit = analysis.conventions.unit
+        panel = sheet.width / across, sheet.height / down
+        self.font = font = sheet.font(*panel)
+        self.small = max(0.85 * font, 8.0)
+        self.margin = round(0.8 * font)
+        self.name = mesh_name(analysis)
+        few = analysis.surface.n_faces <= MOST_FACES
+        self.creased = few and any(notice.code == "creased" for notice in analysis.notices)
+        self.footer = sheet.flow(self._footer(analysis, edge_ink), sheet.width - 2 * self.margin, self.small)
+        foot = len(self.footer) * LINE * self.small + self.margin
+        self.panel = int(panel[0]), int((sheet.height - foot) / down)
+        inner = self.panel[0] - 2 * self.margin
+        self.legends = [sheet.flow(legend(one, value_range), inner, self.small) for one in columns]
+        rows = max(map(len, self.legends), default=0)
+        self.bar = any(one.scale.low is not None for one in columns)
+        below = rows * LINE * self.small + (2.9 * font if self.bar else 0)
+        self.above = 2.0 * font if columns else self.margin
+        self.picture = inner, max(16, int(self.panel[1] - self.above - below - 0.4 * font))
+
+    def cut(self, one: Colored) -> bool:
+        """Whether a column is painted in the cells of its vertices: a density of stars on a creased mesh."""
+        return self.creased and one.quantity.name in STARS and one.scale.low is not None
+
+    def flat(self, one: Colored) -> tuple[int, int, int]:
+        """The colour of 0, which flat faces have between the cells; at the end of the map that is nearer to it."""
+        scale = one.scale
+        low, high = scale.low or 0.0, scale.high or 0.0
+        share = min(max(-(low / 2) / (high / 2 - low / 2), 0.0), 1.0) if high > low else 0.5
+        red, green, blue = scale.gradient[round(share * (len(scale.gradient) - 1))].tolist()
+        return red, green, blue
+
+    def unlike_0(self, one: Colored) -> NDArray[np.bool_]:
+        """(n,) whose colour is not that of 0."""
+        different: NDArray[np.bool_] = (one.scale.rgb != np.array(self.flat(one), np.uint8)).any(axis=1)
+        return different
+
+    def corner(self, place: int) -> tuple[int, int]:
+        """The upper left pixel of the picture in a panel."""
+        left, top = self._origin(place)
+        return left + self.margin, int(top + self.above)
+
+    def draw(self) -> None:
+        """Titles, colour bars and legends of all panels, and the line at the foot."""
+        sheet = self.sheet
+        for place, one in enumerate(self.columns):
+            left, top = self._origin(place)
+            draw_title(sheet, one, self.unit, (left + self.margin, top + 1.1 * self.font), self.font, self.picture[0])
+            at = top + self.above + self.picture[1] + 0.4 * self.font
+            if one.scale.low is not None:
+                inset = 0.06 * self.picture[0]
+                box = (left + self.margin + inset, at, self.picture[0] - 2 * inset, 0.9 * self.font)
+                draw_bar(self.sheet, one, box, self.font)
+                at += 2.9 * self.font
+            self.sheet.draw(self.legends[place], left + self.margin, at, self.small)
+        foot = len(self.footer) * LINE * self.small
+        self.sheet.draw(self.footer, self.margin, self.sheet.height - foot - 0.5 * self.margin, self.small)
+
+    def _origin(self, place: int) -> tuple[int, int]:
+        row, column = divmod(place, self.across)
+        return column * self.panel[0], row * self.panel[1]
+
+    def _footer(self, analysis: Result, edge_ink: Color) -> list[Item]:
+        surface = analysis.surface
+        items = []
+        boundary, crowded = (int(mask.sum()) for mask in (surface.boundary_edges, surface.nonmanifold_edges))
+        if boundary:
+            items.append(Item(counted(boundary, "boundary edge"), "line", edge_ink))
+        if crowded:
+            items.append(Item(f"{counted(crowded, 'edge')} of more than two faces", "line", _NONMANIFOLD))
+        if any(map(self.cut, self.columns)):
+            items.append(Item("creased: a vertex colours its own cell, flat faces between have the colour of 0"))
+        return [*items, *map(Item, about(analysis, self.columns))]

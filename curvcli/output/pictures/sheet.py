@@ -1,0 +1,175 @@
+"""A sheet of pixels: texts, patches and images placed exactly, so that nothing is cut off and nothing overlaps."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...support.words import shown
+from .framing import background_rgb
+
+Color = tuple[float, float, float]
+Box = tuple[float, float, float, float]  # left, top, width, height in pixels, from the upper left corner
+
+_FONT = "DejaVu Sans"
+_SMALLEST_FONT, _LARGEST_FONT = 8.0, 26.0
+LINE = 1.4  # line height over font size
+
+
+@dataclass(frozen=True)
+class Item:
+    """An entry of a legend: a text behind a square or a line of a colour, or by itself."""
+
+    text: str
+    mark: str = ""  # "", "square" or "line"
+    color: Color | None = None
+
+
+class Sheet:
+    """A matplotlib figure of so many pixels, drawn on from the upper left corner."""
+
+    def __init__(self, size: tuple[int, int], background: str) -> None:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        self.width, self.height = size
+        self.background = background_rgb(background)
+        red, green, blue = self.background
+        self.dark = 0.299 * red + 0.587 * green + 0.114 * blue < 0.5
+        self.ink: Color = (0.93, 0.93, 0.93) if self.dark else (0.1, 0.1, 0.1)
+        self.pale: Color = (0.7, 0.7, 0.7) if self.dark else (0.35, 0.35, 0.35)
+        self.figure: Any = Figure(figsize=(self.width / 100, self.height / 100), dpi=100, facecolor=self.background)
+        self.canvas: Any = FigureCanvasAgg(self.figure)
+
+    def font(self, width: float, height: float) -> float:
+        """A font size in pixels that suits a panel."""
+        return min(max(min(width / 42, height / 32), _SMALLEST_FONT), _LARGEST_FONT)
+
+    def text(
+        self, x: float, y: float, text: str, size: float, *, color: Color | None = None, bold: bool = False
+    ) -> None:
+        """One line whose middle is at height y."""
+        self.figure.text(
+            x / self.width,
+            1 - y / self.height,
+            shown(text),
+            fontsize=size * 0.72,
+            color=color or self.ink,
+            family=_FONT,
+            weight="bold" if bold else "normal",
+            va="center_baseline",
+            ha="left",
+            parse_math=False,
+        )
+
+    def measure(self, text: str, size: float, bold: bool = False) -> float:
+        """The width of a text in pixels."""
+        from matplotlib.font_manager import FontProperties
+
+        # By the renderer itself: hinting makes small text wider than its outlines.
+        font = FontProperties(family=_FONT, size=size * 0.72, weight="bold" if bold else "normal")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            width: float = self.canvas.get_renderer().get_text_width_height_descent(shown(text), font, False)[0]
+        return width
+
+    def rectangle(self, box: Box, color: Color) -> None:
+        """A filled rectangle."""
+        from matplotlib.patches import Rectangle
+
+        left, top, width, height = box
+        corner = (left / self.width, 1 - (top + height) / self.height)
+        self.figure.patches.append(
+            Rectangle(
+                corner, width / self.width, height / self.height, transform=self.figure.transFigure, facecolor=color
+            )
+        )
+
+    def triangle(self, corners: NDArray[np.float64], color: Color) -> None:
+        """A filled polygon; corners (n, 2) in pixels."""
+        from matplotlib.patches import Polygon
+
+        at = corners / [self.width, self.height]
+        at[:, 1] = 1 - at[:, 1]
+        self.figure.patches.append(Polygon(at, transform=self.figure.transFigure, facecolor=color, linewidth=0))
+
+    def image(self, pixels: NDArray[np.uint8], left: int, top: int) -> None:
+        """An image at its own size."""
+        self.figure.figimage(pixels, left, self.height - top - pixels.shape[0], origin="upper")
+
+    def axes(self, box: Box) -> Any:
+        """Axes that fill a box."""
+        left, top, width, height = box
+        place = (
+            left / self.width,
+            1 - (top + height) / self.height,
+            width / self.width,
+            height / self.height,
+        )
+        return self.figure.add_axes(place)
+
+    def png(self, about: Mapping[str, str]) -> bytes:
+        """The sheet as PNG with texts about it; a character that no font has is shown as a box, not said."""
+        stream = io.BytesIO()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.canvas.print_png(stream, metadata={key: shown(text) for key, text in about.items()})
+        return stream.getvalue()
+
+    # ------------------------------------------------------------------ legends
+
+    def flow(self, items: Iterable[Item], width: float, size: float) -> list[list[tuple[float, Item]]]:
+        """Entries one after the other in lines of at most this width, each with its place."""
+        lines: list[list[tuple[float, Item]]] = [[]]
+        at = 0.0
+        for item in items:
+            for part in self._parts(item, width, size):
+                needed = self._needs(part, size)
+                if at and at + needed > width:
+                    lines.append([])
+                    at = 0.0
+                lines[-1].append((at, part))
+                at += needed + 1.6 * size
+        return [line for line in lines if line]
+
+    def draw(self, lines: Iterable[list[tuple[float, Item]]], left: float, top: float, size: float) -> None:
+        """Draw what `flow` laid out."""
+        for row, line in enumerate(lines):
+            middle = top + (row + 0.5) * LINE * size
+            for at, item in line:
+                x = left + at
+                if item.mark and item.color is not None:
+                    high = 0.8 * size if item.mark == "square" else max(2.0, 0.16 * size)
+                    wide = 0.8 * size if item.mark == "square" else 1.6 * size
+                    self.rectangle((x, middle - high / 2, wide, high), item.color)
+                self.text(x + self._mark(item, size), middle, item.text, size, color=self.pale)
+
+    def _mark(self, item: Item, size: float) -> float:
+        return {"": 0.0, "square": 1.2, "line": 2.0}[item.mark] * size
+
+    def _needs(self, item: Item, size: float) -> float:
+        return self._mark(item, size) + self.measure(item.text, size)
+
+    def _parts(self, item: Item, width: float, size: float) -> Iterator[Item]:
+        """The entry, cut between words, or within a word, where it is too long for a line."""
+        text = item.text
+        while text and self._needs(Item(text, item.mark), size) > width:
+            less, more = 1, len(text)
+            while less < more - 1:
+                fits = (less + more) // 2
+                if self._needs(Item(text[:fits], item.mark), size) <= width:
+                    less = fits
+                else:
+                    more = fits
+            space = text.rfind(" ", 1, less + 1)
+            cut = space if space > 0 else less
+            yield Item(text[:cut].rstrip(), item.mark, item.color)
+            text, item = text[cut:].lstrip(), Item("", "", None)
+        if text:
+            yield Item(text, item.mark, item.color)

@@ -1,0 +1,1 @@
+"""Tables of vertices, edges, faces, loops, regions and components."""

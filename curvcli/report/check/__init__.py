@@ -1,0 +1,1 @@
+"""Verdicts of a check: requirements, assertions and the formats they are written in."""

@@ -1,0 +1,40 @@
+"""The outcome of `curvcli check` as workflow commands of GitHub Actions, which annotate the files of a change."""
+
+from __future__ import annotations
+
+import os
+
+from ...analysis.configuration import sentence
+from ...support.words import shown
+from ..terminal.check import summary
+from .lines import all_failures, warning, warnings
+from .model import CheckReport
+
+# A workflow command ends with its line; in properties the colon and the comma have a meaning too.
+_DATA = str.maketrans({"%": "%25", "\r": "%0D", "\n": "%0A"})
+_PROPERTY = _DATA | str.maketrans({":": "%3A", ",": "%2C"})
+
+
+def write_github(report: CheckReport) -> bytes:
+    """An `::error` for each failure, the first of each check and a count of the others; a `::warning` for each warning
+    that the text report shows; a `::notice` of a configuration file
+    that has to do with the verdict; a line that sums up."""
+    failed, others = all_failures(report.meshes)
+    lines = [_command("error", f"curvcli {one.outcome.label}", one.text, one.mesh.path) for one in failed]
+    if others:
+        lines.append(_command("error", "curvcli", others))
+    told, _ = warnings(report.meshes)
+    lines += [_command("warning", f"curvcli {one.code}", warning(mesh, one), mesh.path) for mesh, one in told]
+    if configuration := sentence(report.configuration):
+        lines.append(_command("notice", "curvcli configuration", configuration))
+    lines.append(f"curvcli: {summary(report)}")
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _command(kind: str, title: str, message: str, path: str = "-") -> str:
+    """One workflow command, at a file unless the mesh is a stream."""
+    properties = {"title": title}
+    if path != "-":
+        properties = {"file": os.path.normpath(path).replace(os.sep, "/"), **properties}
+    named = ",".join(f"{key}={shown(value).translate(_PROPERTY)}" for key, value in properties.items())
+    return f"::{kind} {named}::{message.translate(_DATA)}"

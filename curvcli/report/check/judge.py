@@ -1,0 +1,152 @@
+"""The gate: which identities, requirements and assertions a mesh has to pass, and what came of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+from ...analysis.result import Result
+from ...checks import Check, requirements, rules
+from ...checks.requirements import Requirement
+from ...curvatures.catalogue import load_passes
+from ...curvatures.engine import evaluate
+from ...curvatures.registry import passes
+from ...errors import FAILED_CHECK, OK, UsageError
+from ...mesh.scale import Scale
+from ...support.words import shown, suggestion
+from ..model import CONVENTIONS, Value, remarks
+from . import assertions
+from .assertions import Assertion
+from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, Outcome, Rule
+
+READABLE = "The mesh can be read and is a surface"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is checked of every mesh."""
+
+    identities: tuple[str, ...]
+    requirements: tuple[Requirement, ...]
+    assertions: tuple[Assertion, ...]
+
+    @property
+    def passes(self) -> list[str]:
+        """The vertex columns that the assertions name."""
+        return [one.quantity.name for one in self.assertions if one.quantity.on == "vertex"]
+
+    @property
+    def rules(self) -> list[Rule]:
+        """Everything that is checked, with what a pass proves."""
+        return [
+            Rule("input", INPUT, READABLE),
+            *(Rule(name, IDENTITY, _statement(name)) for name in self.identities),
+            *(Rule(one.name, REQUIREMENT, one.kind.statement) for one in self.requirements),
+            *(Rule(one.name, ASSERTION, f"{one.name}, nulls left out") for one in self.assertions),
+        ]
+
+
+def plan(
+    require: Iterable[str] = (),
+    allow: Iterable[str] = (),
+    asserted: Iterable[str] = (),
+    scales: tuple[Scale, ...] = (),
+) -> Plan:
+    """Every identity and the default requirements, plus `require` and `asserted`, without what is allowed to fail.
+
+    require, allow: names or comma lists of names. asserted: `STAT(COLUMN) OP NUMBER`. scales: at which estimates are
+    made; of several, each has columns of its own.
+    Errors: UsageError for an unknown name, with the nearest.
+    """
+    load_passes()  # plug-ins may bring identities of their own
+    known = [*requirements.kinds, *rules]
+    allowed = {part.strip() for text in allow for part in text.split(",")}
+    for name in sorted(allowed.difference(known)):
+        way_out = suggestion(name, known, "`curvcli help checks` lists them")
+        raise UsageError(f"cannot allow {name!r}: no requirement or identity is called so{way_out}")
+    wanted = requirements.parse([*requirements.DEFAULT, *require])
+    return Plan(
+        tuple(name for name in rules if name not in allowed),
+        tuple(one for one in wanted if one.kind.name not in allowed),
+        tuple(dict.fromkeys(assertions.parse(text, scales) for text in asserted)),
+    )
+
+
+def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
+    """Every check of the plan on an analysis that tested the plan's identities."""
+    flaw = requirements.kinds["manifold"].test(analysis.surface)
+    given = _given(analysis, chosen)
+    outcomes = [
+        *(_of_identity(check, flaw) for check in analysis.checks),
+        *(_of_requirement(one, analysis, given) for one in chosen.requirements),
+        *(_of_assertion(one, analysis) for one in chosen.assertions),
+    ]
+    failed = any(outcome.status == FAIL for outcome in outcomes)
+    file, conventions = analysis.surface.file, analysis.conventions
+    return CheckedMesh(
+        path,
+        file.sha256 if file is not None else None,
+        FAIL if failed else PASS,
+        FAILED_CHECK if failed else OK,
+        {key: getattr(conventions, key) for key in CONVENTIONS},
+        outcomes,
+        remarks(analysis.notices),
+    )
+
+
+def _of_identity(check: Check, flaw: str) -> Outcome:
+    """flaw: what of the mesh a failure may come from."""
+    match check.status:
+        case "pass":
+            message = _statement(check.name)
+        case "fail":
+            message = "; ".join(part for part in (gap(check), check.detail, flaw) if part)
+        case _:
+            message = check.detail
+    return Outcome(
+        check.name,
+        IDENTITY,
+        shown(check.scope),
+        check.status,
+        shown(message),
+        cast(Value, check.value),
+        cast(Value, check.expected),
+        check.residual,
+        check.tolerance,
+    )
+
+
+def gap(check: Check) -> str:
+    """What a failing identity found: `ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)`."""
+    told = rules[check.name].gap if check.name in rules else ""
+    name = told or "residual"
+    found, sides = check.residual, (check.value, check.expected)
+    if isinstance(sides[0], float) and isinstance(sides[1], float) and abs(sides[0] - sides[1]) == found:
+        found = sides[0] - sides[1]
+    elif told:
+        name = f"|{name}|"
+    size = "undefined" if found is None else f"{found:.5g}"
+    bound = "undefined" if check.tolerance is None else f"{check.tolerance:.1g}"
+    return f"{name} = {size} (allowed {bound})"
+
+
+def _statement(name: str) -> str:
+    return rules[name].statement.split("\n\n")[0].replace("\n", " ").rstrip(".")
+
+
+def _given(analysis: Result, chosen: Plan) -> dict[str, Any]:
+    """The quantities that the requirements need, and the convention for H."""
+    needs = {need for one in chosen.requirements for need in one.kind.needs} - {"mean"}
+    area, known = analysis.request.area, analysis.columns
+    return {**evaluate(passes, analysis.surface, needs, area=area, known=known), "mean": analysis.request.mean}
+
+
+def _of_requirement(one: Requirement, analysis: Result, given: Mapping[str, Any]) -> Outcome:
+    problem = one.problem(analysis.surface, given)
+    return Outcome(one.name, REQUIREMENT, "whole", FAIL if problem else PASS, problem or one.kind.statement)
+
+
+def _of_assertion(one: Assertion, analysis: Result) -> Outcome:
+    held, value, message = one.judge(analysis)
+    return Outcome(one.name, ASSERTION, "whole", PASS if held else FAIL, message, value, one.bound)

@@ -1,0 +1,98 @@
+"""The failures and the warnings of a check as lines: the first of each kind, then a count."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from ...support.words import counted, shown
+from ..model import Remark
+from .model import FAIL, PASS, CheckedMesh, Outcome, sentence
+
+# Failures of one check of one mesh, failures in all, and warnings in all, as long as -v does not ask for the rest.
+FIRST, MOST, WARNINGS = 5, 100, 20
+
+# Words for the pieces of a mesh, by the first word of a scope.
+_PIECES = {"component": "component", "region": "region"}
+
+
+@dataclass(frozen=True)
+class Failure:
+    """One line about a mesh: its first outcome, the sentence, and how many outcomes it stands for."""
+
+    mesh: CheckedMesh
+    outcome: Outcome
+    text: str
+    count: int = 1
+
+
+def failures(mesh: CheckedMesh, first: int | None = FIRST) -> Iterator[Failure]:
+    """What fails and what could not be done; of each check the first few, and one line for the others (None: all)."""
+    for outcomes in by_name(mesh.trouble):
+        # One line for the last failure is as short as its count.
+        most = len(outcomes) if first is None or len(outcomes) <= first + 1 else first
+        for outcome in outcomes[:most]:
+            yield Failure(mesh, outcome, sentence(mesh, outcome))
+        if rest := outcomes[most:]:
+            text = f"{shown(mesh.path)}: {shown(rest[0].name)} fails on {scopes(rest, 'more ')}"
+            yield Failure(mesh, rest[0], text, len(rest))
+
+
+def all_failures(
+    meshes: Iterable[CheckedMesh], first: int | None = FIRST, most: int | None = MOST
+) -> tuple[list[Failure], str]:
+    """The failures of several meshes, and a sentence about those beyond the first `most` lines (None: all)."""
+    lines = [line for mesh in meshes for line in failures(mesh, first)]
+    if most is None or len(lines) <= most:
+        return lines, ""
+    rest = lines[most:]
+    count, files = sum(line.count for line in rest), len({id(line.mesh) for line in rest})
+    return lines[:most], f"{counted(count, 'more failure')} in {counted(files, 'mesh', 'meshes')}"
+
+
+def by_name(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
+    """The outcomes of each check, in the order of their first."""
+    groups: dict[tuple[str, str], list[Outcome]] = {}
+    for outcome in outcomes:
+        groups.setdefault((outcome.name, outcome.status), []).append(outcome)
+    return list(groups.values())
+
+
+def scopes(outcomes: Sequence[Outcome], more: str = "") -> str:
+    """Where the outcomes of one check stand: `whole, 100 components`."""
+    kinds: dict[str, int] = {}
+    parts = []
+    for outcome in outcomes:
+        if outcome.scope == "whole":
+            parts = ["whole"]
+        else:
+            word = _PIECES.get(outcome.scope.split(" ", 1)[0], "other scope")
+            kinds[word] = kinds.get(word, 0) + 1
+    if len(outcomes) == 1 and not parts and not more:
+        return outcomes[0].scope
+    return ", ".join([*parts, *(f"{number:,} {more}{word}{'s' * (number > 1)}" for word, number in kinds.items())])
+
+
+def warnings(
+    meshes: Sequence[CheckedMesh], most: int | None = WARNINGS
+) -> tuple[list[tuple[CheckedMesh, Remark]], int]:
+    """The warnings of a lone mesh, or of those of several that fail (None: of all), and how many are left out."""
+    chosen = [mesh for mesh in meshes if most is None or len(meshes) == 1 or mesh.status == FAIL]
+    found = [(mesh, remark) for mesh in chosen for remark in mesh.warnings]
+    kept = found if most is None else found[:most]
+    return kept, len(found) - len(kept)
+
+
+def warning(mesh: CheckedMesh, remark: Remark) -> str:
+    """A warning in one line, with the first places and the hint."""
+    first = f" (first: {', '.join(shown(str(place)) for place in remark.examples[:3])})" if remark.examples else ""
+    hint = f"; {shown(remark.hint)}" if remark.hint else ""
+    return f"{shown(mesh.path)}: {remark.code}: {remark.count:,} {shown(remark.message)}{first}{hint}"
+
+
+def meshes_pass(meshes: Sequence[CheckedMesh]) -> str:
+    """How many of the meshes pass, in words."""
+    passed = sum(mesh.status == PASS for mesh in meshes)
+    if len(meshes) > 1:
+        return f"{passed:,} of {len(meshes):,} meshes pass"
+    return f"the mesh {'passes' if passed else 'does not pass'}"

@@ -1,0 +1,113 @@
+"""What `curvcli check` found, as data: one outcome per mesh and check; every format is written from it."""
+
+from __future__ import annotations
+
+import msgspec
+
+from ..._version import __version__
+from ...analysis.configuration import Configuration, Configured, configured
+from ...support.words import shown
+from ..model import Remark, Value, encode
+
+# What `kind` and `status` can be.
+IDENTITY, REQUIREMENT, ASSERTION, INPUT = "identity", "requirement", "assertion", "input"
+PASS, FAIL, NOT_APPLICABLE, ERROR = "pass", "fail", "not_applicable", "error"
+
+
+class Outcome(msgspec.Struct):
+    """One check on one scope of one mesh.
+
+    kind: `identity`, `requirement`, `assertion`, or `input` for a mesh that could not be checked. status: `pass`,
+    `fail`, `not_applicable` or `error`. message: what a pass proves, what a failure found, why there is neither.
+    value, expected, residual, tolerance: of identities, as in the report of analyze; of assertions the statistic and
+    the number it is compared with.
+    """
+
+    name: str
+    kind: str
+    scope: str
+    status: str
+    message: str
+    value: Value = None
+    expected: Value = None
+    residual: float | None = None
+    tolerance: float | None = None
+
+    @property
+    def label(self) -> str:
+        """The name, with the scope where that is not the whole mesh."""
+        return self.name if self.scope == "whole" else f"{self.name} ({self.scope})"
+
+
+class CheckedMesh(msgspec.Struct):
+    """One mesh with its outcomes; without sha256 and conventions where it could not be read."""
+
+    path: str
+    sha256: str | None
+    status: str
+    exit_code: int
+    conventions: dict[str, str | None] | None
+    outcomes: list[Outcome]
+    warnings: list[Remark]
+
+    def count(self, status: str) -> int:
+        """Outcomes of a status."""
+        return sum(outcome.status == status for outcome in self.outcomes)
+
+    @property
+    def trouble(self) -> list[Outcome]:
+        """What fails, and what could not be done."""
+        return [outcome for outcome in self.outcomes if outcome.status in (FAIL, ERROR)]
+
+
+class Rule(msgspec.Struct):
+    """One thing that was checked of every mesh: its name, its kind, and what a pass proves."""
+
+    name: str
+    kind: str
+    statement: str
+
+
+class CheckReport(msgspec.Struct):
+    """All meshes of one call."""
+
+    schema_version: int
+    curvcli: str
+    rules: list[Rule]
+    meshes: list[CheckedMesh]
+    exit_code: int
+    configuration: Configured = msgspec.UNSET
+
+
+def report_of(
+    rules: list[Rule], meshes: list[CheckedMesh], exit_code: int, configuration: Configuration | None = None
+) -> CheckReport:
+    """The report of one call."""
+    return CheckReport(1, __version__, rules, meshes, exit_code, configured(configuration))
+
+
+def failed_input(path: str, message: str, exit_code: int) -> CheckedMesh:
+    """A mesh that could not be checked."""
+    outcome = Outcome("input", INPUT, "whole", ERROR, shown(message))
+    return CheckedMesh(path, None, ERROR, exit_code, None, [outcome], [])
+
+
+def sentence(mesh: CheckedMesh, outcome: Outcome) -> str:
+    """One outcome in one line."""
+    on = "" if outcome.scope == "whole" else f" on {outcome.scope}"
+    match outcome.status:
+        case "error":
+            said = outcome.message
+        case "fail":
+            said = f"{outcome.name} fails{on}: {outcome.message}"
+        case "not_applicable":
+            said = f"{outcome.name} does not apply{on}: {outcome.message}"
+        case _:
+            said = f"{outcome.name} passes{on}: {outcome.message}"
+    return f"{shown(mesh.path)}: {shown(said)}"
+
+
+def write_json(report: CheckReport) -> bytes:
+    """The report as JSON; bytes of a path that are no text are escaped."""
+    meshes = [msgspec.structs.replace(mesh, path=shown(mesh.path)) for mesh in report.meshes]
+    return encode(msgspec.to_builtins(msgspec.structs.replace(report, meshes=meshes)))

@@ -1,0 +1,103 @@
+"""The outcome of `curvcli check` as SARIF 2.1.0, for code scanning: what fails, at the file it is in."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import PurePath
+from typing import Any
+from urllib.parse import quote
+
+import msgspec
+
+from ..._version import __version__
+from ...support.words import in_sarif, shown
+from ..model import encode
+from .model import INPUT, CheckedMesh, CheckReport, Outcome, sentence
+
+SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+
+# What GitHub takes for the root of the repository.
+_ROOT = "%SRCROOT%"
+
+
+def write_sarif(report: CheckReport) -> bytes:
+    """One run whose rules are the checks, whose results are what failed, and whose artifacts are the meshes."""
+    place = {rule.name: index for index, rule in enumerate(report.rules)}
+    results = [
+        _result(mesh, index, outcome, place) for index, mesh in enumerate(report.meshes) for outcome in mesh.trouble
+    ]
+    run = {
+        "tool": {
+            "driver": {"name": "curvcli", "version": __version__, "rules": [_rule(rule) for rule in report.rules]}
+        },
+        "invocations": [_invocation(report)],
+        "artifacts": [_artifact(mesh) for mesh in report.meshes],
+        "results": results,
+        "columnKind": "unicodeCodePoints",
+    }
+    return encode({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})
+
+
+def _invocation(report: CheckReport) -> dict[str, Any]:
+    """The exit code, and the configuration file that has to do with it."""
+    found: dict[str, Any] = {"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}
+    if not isinstance(report.configuration, msgspec.UnsetType):
+        text = in_sarif(report.configuration.sentence)
+        found["toolConfigurationNotifications"] = [{"level": "note", "message": {"text": text}}]
+        found["properties"] = {"configuration": msgspec.to_builtins(report.configuration)}
+    return found
+
+
+def uri_of(path: str) -> str:
+    """A mesh's path as a URI reference, relative to the working directory where there is a way from there."""
+    try:
+        relative = os.path.relpath(path)
+    except ValueError:  # another drive
+        return PurePath(os.path.abspath(path)).as_uri()
+    except OSError:  # the working directory has been removed
+        return PurePath(path).as_uri() if os.path.isabs(path) else quote(os.fsencode(path))
+    return quote(os.fsencode(relative.replace(os.sep, "/")))
+
+
+def _rule(rule: Any) -> dict[str, Any]:
+    return {
+        "id": shown(rule.name),
+        "shortDescription": {"text": in_sarif(f"{rule.statement}.")},
+        "defaultConfiguration": {"level": "error"},
+        "properties": {"kind": rule.kind},
+    }
+
+
+def _location(path: str) -> dict[str, Any]:
+    return {"uri": uri_of(path), "uriBaseId": _ROOT}
+
+
+def _artifact(mesh: CheckedMesh) -> dict[str, Any]:
+    found: dict[str, Any] = {"roles": ["analysisTarget"]}
+    if mesh.path == "-":
+        found["description"] = {"text": "stdin"}
+    else:
+        found["location"] = _location(mesh.path)
+    if mesh.sha256 is not None:
+        found["hashes"] = {"sha-256": mesh.sha256}
+    return found
+
+
+def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, int]) -> dict[str, Any]:
+    identity = "\0".join((mesh.path, outcome.label)).encode("utf-8", "surrogateescape")
+    found: dict[str, Any] = {
+        "ruleId": shown(outcome.name),
+        "ruleIndex": place[outcome.name],
+        "kind": "fail",
+        "level": "error",
+        "message": {"text": in_sarif(sentence(mesh, outcome))},
+        "partialFingerprints": {"curvcli/v1": hashlib.sha256(identity).hexdigest()},
+    }
+    if mesh.path != "-":
+        # Code scanning shows a result at a line; of a mesh it is the first.
+        artifact = {**_location(mesh.path), "index": index}
+        found["locations"] = [{"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": 1}}}]
+    if outcome.kind != INPUT:
+        found["properties"] = {"scope": shown(outcome.scope)}
+    return found

@@ -1,0 +1,1 @@
+"""Comparison of meshes, reports and tables."""

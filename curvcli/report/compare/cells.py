@@ -1,0 +1,149 @@
+"""Which cells of two vertex tables differ beyond tolerance, column by column."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...curvatures.catalogue import load_passes
+from ...curvatures.registry import passes
+from ...mesh.triangles import EPSILON
+from .values import DEFAULT, EVERYTHING, Difference, Tolerance, noise_of, stem
+
+Cells = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class MovedColumn:
+    """A column with cells that differ: how many of how many, and the cell that moved most; null against a number is
+    listed with `moved` null and comes first.
+    """
+
+    name: str
+    rows: int
+    differing: int
+    vertex: int
+    a: float | str | None
+    b: float | str | None
+    moved: float | None
+    allowed: float | None
+
+
+def compare_cells(
+    a: Mapping[str, Cells],
+    b: Mapping[str, Cells],
+    tolerance: Tolerance = DEFAULT,
+    wanted: Callable[[str], bool] = EVERYTHING,
+    *,
+    common: bool = False,
+) -> tuple[list[MovedColumn], list[Difference], int]:
+    """Columns with cells that differ, columns that one side lacks, and how many columns were compared.
+
+    a, b: columns (n,) of numbers (NaN is null) or words (None is null) by name, equally long; column K is
+    `vertices.K` for `wanted`. A cell may move by atol + rtol · max(|a|, |b|, median size of the
+    column) + noise; positions are measured by the extent of the mesh.
+    """
+    moved: list[MovedColumn] = []
+    lacking: list[Difference] = []
+    compared = 0
+    scale = _Scales(a, b)
+    for name in dict.fromkeys([*a, *b]):
+        if not wanted(f"vertices.{name}"):
+            continue
+        if name not in a or name not in b:
+            if not common:
+                status = "absent_in_b" if name in a else "absent_in_a"
+                lacking.append(Difference(f"vertices.{name}", status, None, None))
+            continue
+        compared += 1
+        one, other = a[name], b[name]
+        if "f" not in one.dtype.kind + other.dtype.kind and not (_numeric(one) and _numeric(other)):
+            found = _words(name, one, other)
+        elif not (_numeric(one) and _numeric(other)):
+            found = _words(name, one.astype(object), other.astype(object))
+        else:
+            numbers = scale.along(name, one.astype(np.float64), other.astype(np.float64))
+            found = _moved(name, *numbers, scale.typical(name), scale.noise(name), tolerance)
+        moved += [found] if found else []
+    return moved, lacking, compared
+
+
+def _numeric(column: Cells) -> bool:
+    return column.dtype.kind in "fiub"
+
+
+def _words(name: str, one: Cells, other: Cells) -> MovedColumn | None:
+    differ = np.flatnonzero(one.astype(object) != other.astype(object))
+    if not len(differ):
+        return None
+    row = int(differ[0])
+    first, second = (None if side[row] is None else str(side[row]) for side in (one, other))
+    return MovedColumn(name, len(one), len(differ), row, first, second, None, None)
+
+
+def _moved(name: str, one: Cells, other: Cells, typical: float, noise: float, tolerance: Tolerance) -> Any:
+    with np.errstate(invalid="ignore", over="ignore"):
+        size = np.maximum(np.maximum(np.abs(one), np.abs(other)), typical)
+        allowed = tolerance.allowed(size, noise)
+        gap = np.abs(one - other)
+    only_one = np.isnan(one) != np.isnan(other)
+    beyond = (gap > allowed) & (one != other)
+    differing = int(np.count_nonzero(beyond | only_one))
+    if not differing:
+        return None
+    lost = bool(only_one.any())
+    row = int(np.argmax(only_one if lost else np.where(beyond, gap, -1.0)))
+    cells = [None if math.isnan(side[row]) else float(side[row]) for side in (one, other)]
+    told = (None, None) if lost else (float(gap[row]), float(allowed[row]))
+    return MovedColumn(name, len(one), differing, row, *cells, *told)
+
+
+class _Scales:
+    """What the moves of each column are measured against."""
+
+    def __init__(self, a: Mapping[str, Cells], b: Mapping[str, Cells]) -> None:
+        load_passes()
+        self._tables = a, b
+        self._stems: dict[str, list[str]] = {}
+        for name in dict.fromkeys([*a, *b]):
+            self._stems.setdefault(stem(name), []).append(name)
+        areas = [side["A"] for side in self._tables if "A" in side and _numeric(side["A"])]
+        self.edge = max((_of(np.nanmean, np.sqrt(area)) for area in areas), default=0.0)
+
+    def typical(self, name: str) -> float:
+        """The median size of the column and the other axes of its vector; the extent for positions."""
+        shared = [side[axis] for axis in self._stems[stem(name)] for side in self._tables if axis in side]
+        columns = [column.astype(np.float64) for column in shared if _numeric(column)]
+        if stem(name) == "xyz":
+            extent = max(_of(np.nanmax, column) - _of(np.nanmin, column) for column in columns)
+            return min(extent, sys.float_info.max)
+        return max(2 * _of(np.nanmedian, np.abs(column) / 2) for column in columns)
+
+    def noise(self, name: str) -> float:
+        """What rounding can make of one cell."""
+        if stem(name) == "xyz":
+            return 4 * EPSILON * max(_of(np.nanmax, np.abs(side[name])) for side in self._tables)
+        quantity = passes.column(name)
+        return noise_of(name, quantity.length_exponent, self.edge) if quantity else 0.0
+
+    def along(self, name: str, one: Cells, other: Cells) -> tuple[Cells, Cells]:
+        """Both columns, lines of b turned to point along those of a: ±d is the same line."""
+        quantity, axes = passes.column(name), self._stems[stem(name)]
+        if not (quantity and quantity.line) or not all(axis in side for axis in axes for side in self._tables):
+            return one, other
+        a, b = self._tables
+        with np.errstate(invalid="ignore"):
+            against = sum(a[axis] * b[axis] for axis in axes) < 0
+        return one, np.where(against, -other, other)
+
+
+def _of(function: Callable[[Cells], Any], column: Cells) -> float:
+    """A statistic of what is not null; 0 of nothing."""
+    known = column[~np.isnan(column)] if column.dtype.kind == "f" else column
+    return float(function(known)) if len(known) else 0.0

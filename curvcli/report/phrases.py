@@ -1,0 +1,108 @@
+"""The report in words: what every text and every page says about a mesh in the same way."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..support.words import counted, shown
+
+if TYPE_CHECKING:
+    from .model import CheckRow, Report, Topology
+
+_RANK = {"fail": 0, "pass": 1, "not_applicable": 2}
+RESULTS = {"fail": "fails", "pass": "holds", "not_applicable": "does not apply"}
+
+# Rows of checks that pass on pieces, and rows of pieces, that a page shows before it names the table with all of them.
+SHOWN_ROWS = 100
+
+
+def verdict(report: Report) -> str:
+    """How many identities hold, fail and do not apply, and how many warnings there are, in one line."""
+    counts = {status: sum(row.status == status for row in report.checks) for status in _RANK}
+    parts = []
+    if counts["fail"]:
+        parts.append(counted(counts["fail"], "identity fails", "identities fail"))
+    parts.append(counted(counts["pass"], "identity holds", "identities hold"))
+    if counts["not_applicable"]:
+        parts.append(f"{counts['not_applicable']:,} not applicable")
+    parts.append(counted(len(report.warnings), "warning") if report.warnings else "no warnings")
+    return ", ".join(parts)
+
+
+def shape(topology: Topology) -> str:
+    """What the surface is: its pieces, its boundary, its genus."""
+    words = [
+        "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge"),
+        "manifold" if topology.manifold else "not manifold",
+        "orientable" if topology.orientable else "not orientable",
+    ]
+    if topology.components > 1:
+        words.insert(0, counted(topology.components, "component"))
+    if topology.genus is not None:
+        words.append(f"genus {topology.genus}")
+    for count, name in ((topology.crosscaps, "crosscap"), (topology.boundary_loops, "boundary loop")):
+        if count:
+            words.append(counted(count, name))
+    return ", ".join(words)
+
+
+def conventions(report: Report) -> dict[str, str]:
+    """What was chosen, in words for each option; of options that only some columns know, those that were used."""
+    chosen = report.conventions
+    turned = "closed patches that were inside out are turned" if chosen["orient"] == "outward" else "as the file has it"
+    found = {
+        "mean curvature": ("H = κ₁ + κ₂, 2/r on a sphere" if chosen["mean"] == "sum" else "H = (κ₁ + κ₂)/2")
+        + "; positive where the surface is convex seen from the side its normals point to",
+        "area of K_density": str(chosen["area"]),
+        "orientation": turned,
+        "welding": {"none": "none", "exact": "vertices at exactly one place are merged"}.get(
+            chosen["weld"] or "none", f"vertices within {chosen['weld']} of the bounding-box diagonal are merged"
+        ),
+        "unit of length": chosen["unit"] or "that of the file",
+        "undefined": "null: neither 0 nor left out of a count",
+    }
+    told = ("mean", "area", "orient", "weld", "unit")
+    return found | {key: str(value) for key, value in chosen.items() if key not in told and value is not None}
+
+
+def failing_first(rows: Iterable[CheckRow]) -> list[CheckRow]:
+    """The checks in the order in which they matter."""
+    return sorted(rows, key=lambda row: _RANK[row.status])
+
+
+def listed(rows: Sequence[CheckRow]) -> list[CheckRow]:
+    """Failing first; of the checks of pieces that pass, none beyond `SHOWN_ROWS` rows in all."""
+    kept = [row for row in rows if row.scope == "whole" or row.status == "fail"]
+    rest = [row for row in rows if row.scope != "whole" and row.status != "fail"]
+    return failing_first([*kept, *rest[: max(0, SHOWN_ROWS - len(kept))]])
+
+
+def number(value: Any, digits: int = 6) -> str:
+    """A number, a vector or a word of a table; `undefined` where there is none."""
+    if value is None:
+        return "undefined"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, list):
+        return "(" + ", ".join(number(part, digits) for part in value) + ")"
+    if isinstance(value, int):
+        return f"{value:,}"
+    return f"{value + 0.0:.{digits}g}" if isinstance(value, float) else shown(str(value))
+
+
+def shell_quoted(arguments: Iterable[str]) -> str:
+    """The arguments as a line for a shell; what cannot be shown stands in $'…' with escapes."""
+    return " ".join(map(_quoted, arguments))
+
+
+def _quoted(argument: str) -> str:
+    if argument.isprintable():
+        return shlex.quote(argument)
+    plain = "".join(chr(byte) if 32 <= byte < 127 else f"\\x{byte:02x}" for byte in _escaped(argument))
+    return f"$'{plain}'"
+
+
+def _escaped(argument: str) -> bytes:
+    return argument.replace("\\", r"\\").replace("'", r"\'").encode("utf-8", "surrogateescape")

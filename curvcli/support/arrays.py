@@ -1,0 +1,19 @@
+"""Types of arrays, and numbers as reports hold them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Column = NDArray[np.float64]
+VectorColumn = NDArray[np.float64]  # (3, n), one contiguous row per coordinate
+Flags = NDArray[np.bool_]
+Codes = NDArray[np.int8]
+Counts = NDArray[np.int32]
+
+
+def or_none(value: float) -> float | None:
+    """The number, None where it is infinite or not a number."""
+    return value if math.isfinite(value) else None

@@ -1,0 +1,108 @@
+"""The page of the checks: identities and requirements, from their declarations."""
+
+from __future__ import annotations
+
+from curvcli.checks import CheckRule, rules
+from curvcli.checks.requirements import DEFAULT, kinds
+from curvcli.curvatures.catalogue import load_passes
+
+_INTRODUCTION = """\
+# Checks
+
+Made from the declarations in `curvcli/checks/` and `curvcli/requirements/`. ε = 2⁻⁵²; F and V count faces and
+vertices, N is 3F + V; the extent of a face is √(¾Σ|e|²) over its edges, half its perimeter or up to 1.23 times that. An
+*identity* is a theorem: it holds for every mesh that it applies to, up to rounding, and so it proves the arithmetic,
+not the mesh. A *requirement* is a property that a mesh has or has not.
+
+`curvcli analyze` tests each identity whose quantities are computed anyway; `curvcli check` tests all of them, and the
+requirements. Each is tested on the whole surface, on every component, and on every region where there are regions.
+The status is `pass`, `fail`, or `not_applicable` with the reason; an identity with an undefined term is not applicable,
+never passed, nor is one whose sides no double holds in the file's unit.
+
+## When an identity fails
+
+1. Read `scope` and `detail`: they name the component or region, and by how much it fails.
+2. Read the warnings of the report. Values beyond the range of doubles (`out_of_range`) are undefined.
+3. Run the same file with `-p all`: other identities over the same columns tell which column is wrong.
+4. If columns of a plug-in are among what it needs, ask its author.
+5. Otherwise it is a defect of curvcli or of the machine. No shape of a mesh explains it. Please report it, with the
+   file if you may.
+"""
+
+_REQUIREMENTS = """\
+## Requirements
+
+A requirement that fails says how many places there are and names the first. Those marked * are required by
+`curvcli check` unless `--allow NAME` drops them; the others are asked for with `--require`.
+
+| requirement | what it promises | where it fails |
+|---|---|---|
+"""
+
+_CRITICAL = """
+`minimal` and `cmc` test numbers without a unit: the verdict is the same in millimetres and in metres, and a finer
+mesh is not a better one for its smaller stars. They ask whether the *mesh* is critical for its area, alone or for
+its volume. A mesh that only approximates such a surface need not be. On irregular triangulations of a round sphere
+the largest |H_p + H A_p|/A_p does not tend to 0, however fine they are, while H itself tends to 2/r. Surfaces
+evolved by a soap film solver pass. `minimal` covers lines where three films meet. Rounding of a star counts as 0; a
+vertex without a value fails the requirement."""
+
+_ELSEWHERE = r"""
+## Of curves and of maps
+
+`curvcli curves` tests on every curve, with tolerances of the same kind, n its vertices and ψ its turning angles:
+
+| identity | statement | applies to |
+|---|---|---|
+| `fenchel` | Σψ ≥ 2π | closed curves |
+| `tangent_change` | the curvature vectors add up to T(q) − T(p), 0 if closed | all with an edge |
+| `turning_number` | the signed total curvature is a multiple of 2π | plane closed curves |
+| `holonomy` | the holonomy of the parallel frame is 2π · writhe up to whole turns | closed curves, none turning back |
+
+`curvcli compare A B --map` tests of the map f from A to B:
+
+| identity | statement |
+|---|---|
+| `dirichlet_energy` | ½ Σ \|∇f\|² area = ¼ Σ cot θ \|opposite edge\|²: both formulas of its energy agree |
+| `nonconformality` | Σ ½(σ₁ − σ₂)² area = E(f) − area f(M) ≥ 0 |
+
+With `uv` for B, f is the map to the texture coordinates of A. Where the corners of two faces at an edge have different
+coordinates the texture has a seam: f is continuous on the surface cut open along its seams, E(f) is the energy there,
+the sum over all faces, and both identities hold as they do on every surface.
+
+The column `orientation` of the table of faces is +1, or −1 where f turns a face over against most of the area of its
+patch. Into a plane it is the sign of det df. Between surfaces in space a face has no side of its own, and the sign is
+carried from face to face: it changes where the dihedral angles of surface and image differ by more than a right angle.
+"""
+
+
+def page() -> str:
+    """The documentation page of all checks, in Markdown."""
+    load_passes()  # plug-ins may bring identities of their own
+    parts = [_INTRODUCTION, "## Identities\n", *(_identity(rule) for rule in rules.values())]
+    rows = [
+        f"| `{one.usage}`{' *' if name in DEFAULT else ''} | {_cell(one.statement)} | {_cell(one.remedy)} |"
+        for name, one in kinds.items()
+    ]
+    return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows), _CRITICAL, _ELSEWHERE])
+
+
+def _identity(rule: CheckRule) -> str:
+    lines = [f"### `{rule.name}`\n", f"{rule.statement}\n"]
+    told = (
+        ("tested", rule.gap),
+        ("applies to", rule.applies),
+        ("tolerance", rule.bound),
+        ("needs", ", ".join(f"`{need}`" for need in rule.needs)),
+        ("a failure means", rule.failure),
+    )
+    return "\n".join([*lines, *(f"* {label}: {_text(value)}" for label, value in told if value)]) + "\n"
+
+
+def _text(value: str) -> str:
+    """Text in which Markdown finds nothing to mark."""
+    return value.replace("*", r"\*")
+
+
+def _cell(value: str) -> str:
+    return _text(value).replace("|", r"\|")

@@ -1,0 +1,61 @@
+"""The columns of every table but that of vertices, which has a page of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from curvcli.analysis.result import Result
+from curvcli.api import analyze
+from curvcli.curvatures.catalogue import load_passes
+from curvcli.curvatures.quantity import Element
+from curvcli.curvatures.registry import passes
+from curvcli.output.tables.columns import TABLES
+
+_KEYS = {
+    "edges": (
+        ("edge", "its index, in the order of `a`, then `b`"),
+        ("a", "the vertex of lower index"),
+        ("b", "the vertex of higher index"),
+        ("faces", "how many faces meet there: 1 on the boundary, 2 inside, more where the surface branches"),
+    ),
+    "faces": (
+        ("face", "its index among the triangles"),
+        ("polygon", "the face of the file that it came from"),
+        ("a", "first corner"),
+        ("b", "second corner"),
+        ("c", "third corner"),
+    ),
+}
+_ELEMENTS: dict[str, Element] = {"edges": "edge", "faces": "face"}
+_REGION = ("region", "the label of the face's region, with `--regions` only")
+
+
+def page_part() -> str:
+    """Columns of the tables of edges and faces with what they are, of the others by the keys of the report."""
+    load_passes()
+    parts = []
+    for kind, keys in _KEYS.items():
+        rows = [*keys, *_quantities(_ELEMENTS[kind]), *([_REGION] if kind == "faces" else [])]
+        parts += [f"### {kind}\n", "| column | what it is |", "|---|---|"]
+        parts += [f"| `{name}` | {text} |" for name, text in rows]
+        parts.append("")
+    example = _example()
+    for kind in ("loops", "components", "regions"):
+        names = ", ".join(f"`{name}`" for name in TABLES[kind](example))
+        parts += [f"### {kind}\n", f"{names}\n"]
+    parts += ["`region` is the label, as in the table of faces, and `name` the same under the key of the report.\n"]
+    return "\n".join(parts)
+
+
+def _quantities(element: Element) -> list[tuple[str, str]]:
+    found = []
+    for quantity in passes.quantities(element):
+        described = quantity.description.split("\n\n")[0].replace("\n", " ").replace("*", r"\*").replace("|", r"\|")
+        found.append(("`, `".join(quantity.columns), described))
+    return found
+
+
+def _example() -> Result:
+    """Two triangles in two regions, with all that a report can say."""
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]])
+    return analyze((points, np.array([[0, 1, 2], [0, 2, 3]])), "paper", regions=np.array([0, 1]))

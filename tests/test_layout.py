@@ -1,0 +1,65 @@
+"""The layout of the package: few entries at the top, imports without a cycle, libraries in their places."""
+
+from __future__ import annotations
+
+import ast
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[1] / "curvcli"
+
+# Third-party packages that only some folders import.
+PLACES = {
+    "rich": ("report/terminal", "commands"),
+    "click": ("commands", "__main__.py"),
+}
+
+
+def module_of(path: Path) -> str:
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+SOURCES = {module_of(path): path for path in sorted(PACKAGE.rglob("*.py"))}
+
+
+def imports(module: str) -> set[str]:
+    """Modules that a module names in an import, at its top, within functions or for annotations."""
+    path = SOURCES[module]
+    package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {name.name for name in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            above = package.split(".")[: len(package.split(".")) - node.level + 1] if node.level else []
+            source = ".".join([*above, *([node.module] if node.module else [])])
+            found |= {f"{source}.{name.name}" if f"{source}.{name.name}" in SOURCES else source for name in node.names}
+    return found
+
+
+def test_imports_have_no_cycle() -> None:
+    """`static_order` raises CycleError with the modules of a cycle."""
+    graph = {module: {name for name in imports(module) if name in SOURCES and name != module} for module in SOURCES}
+    for module in graph:
+        # A package that its own modules import things from would be loaded before them.
+        graph[module] = {name for name in graph[module] if not module.startswith(f"{name}.")}
+    assert len(list(TopologicalSorter(graph).static_order())) == len(SOURCES)
+
+
+def test_the_top_has_few_entries() -> None:
+    entries = {path.name for path in PACKAGE.iterdir() if path.name != "__pycache__"}
+    assert len({name for name in entries if not name.startswith("__")}) <= 15, entries
+
+
+@pytest.mark.parametrize("library", PLACES)
+def test_a_library_has_its_place(library: str) -> None:
+    users = {
+        SOURCES[module].relative_to(PACKAGE).as_posix()
+        for module in SOURCES
+        if any(name == library or name.startswith(f"{library}.") for name in imports(module))
+    }
+    assert users
+    assert not [user for user in users if not user.startswith(PLACES[library])]
