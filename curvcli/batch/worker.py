@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 import signal
 import sys
@@ -29,14 +28,15 @@ def main() -> None:
     threading.Thread(target=_listen, args=(tasks, todo), daemon=True).start()
 
     from ..curvatures.catalogue import load_passes
+    from ..loading.libraries import import_libraries, start_polars
     from ..support.memory import bound
     from .run import run
 
     # Here, so that the first mesh is not charged with it.
     load_passes()
-    for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
-        importlib.import_module(name)
+    import_libraries()
     if limits.memory is not None:
+        start_polars()
         bound(limits.memory)
     _answer(answers, Ready(__version__))
     while True:

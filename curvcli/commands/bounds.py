@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 import signal
 import sys
@@ -13,6 +12,7 @@ from typing import Any, NoReturn
 import click
 
 from ..errors import INTERNAL, InputError, UsageError
+from ..loading.libraries import import_libraries, start_polars
 from ..support.memory import bound
 from ..support.sinks import wait_for
 from . import options, signals
@@ -57,8 +57,8 @@ def guard(timeout: float | None, max_memory: int | None) -> None:
     signals.adopt()
     if max_memory is not None:
         # Before the bound, which does not count them.
-        for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
-            importlib.import_module(name)
+        import_libraries()
+        start_polars()
         bound(max_memory << 20)
 
 

@@ -155,7 +155,8 @@ def compare_map(
     """A → B as a map: options are checked, both surfaces read, the map measured and told; the exit code."""
     from ..output.atomic import Outputs
     from ..output.tables.write import parse_precision
-    from ..report.maps import build, show
+    from ..report.maps import build
+    from ..report.terminal.maps import show
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)

@@ -52,6 +52,8 @@ def compare(
     from ..report import accuracy as errors
     from ..report.compare import model as differences
     from ..report.model import encode
+    from ..report.terminal import accuracy as error_summary
+    from ..report.terminal import compare as difference_summary
     from .configured import configuration
 
     formats = [format_of(p, name=stream_format if p == "-" else None, kinds=("table", "report")) for p in outputs]
@@ -67,11 +69,11 @@ def compare(
         if known is not None:
             limit = rtol if "rtol" in given else None
             found = accuracy(mesh, known, conventions, limits, selector(only, ignore), limit, quiet)
-            table, summary = partial(errors.table, found), partial(errors.show, found)
+            table, summary = partial(errors.table, found), partial(error_summary.show, found)
         else:
             sides = both_sides(a, b, given, conventions, limits, quiet)
             found = _compare(sides, Tolerance(rtol, atol), only, ignore, common)
-            table, summary = partial(differences.table, found), partial(differences.show, found, verbose)
+            table, summary = partial(differences.table, found), partial(difference_summary.show, found, verbose)
         found.configuration = configured(configuration())
         for path, one in zip(outputs, formats, strict=True):
             with files.open(path) as stream:

@@ -21,8 +21,6 @@ def command(name: str | None, as_json: bool, markdown: bool) -> None:
     above the noise, on scans; K_ring and h_ring average the measures.
     `curvcli help estimates` tells when to use which, in five sentences and one table.
     """
-    from ..report.quantities import describe, listing
-
     if markdown:
         from ..report.quantities import page
 
@@ -32,7 +30,7 @@ def command(name: str | None, as_json: bool, markdown: bool) -> None:
         from ..report.quantities import as_data
 
         click.echo(encode(as_data(name)), nl=False)
-    elif name is None:
-        listing()
     else:
-        describe(name)
+        from ..report.terminal.quantities import describe, listing
+
+        describe(name) if name else listing()

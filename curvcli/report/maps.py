@@ -1,20 +1,16 @@
-"""What is told of a map between two surfaces: as JSON and as a summary for the terminal."""
+"""Report of a map between two surfaces."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
-from rich.table import Table
 
 from .._version import __version__
 from ..analysis.configuration import Configured, configured
 from ..support.arrays import or_none
 from .model import CheckRow, Input, Remark, input_of, remarks
-from .terminal.console import MARKS, escape, report_console, show_configuration
-from .terminal.fitting import fitting, with_sentences
 
 if TYPE_CHECKING:
     from ..analysis.maps import SurfaceMap
@@ -99,51 +95,6 @@ def build(f: SurfaceMap) -> dict[str, Any]:
     return found
 
 
-def show(f: SurfaceMap) -> None:
-    """Print the summary of a map to stdout; rich where it is a terminal, plain text in a pipe."""
-    report = model(f)
-    console = report_console(100)
-    names = (escape(side.path or "arrays in memory") for side in (report.source, report.image))
-    console.print(f"[bold]{' → '.join(names)}[/bold]  V {f.source_vertices:,}  F {f.source.n_faces:,}")
-    for remark in report.warnings:
-        console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message)}")
-    show_configuration(console, report.configuration)
-    console.print(fitting(console, _quantities(report)))
-    rows = [
-        (
-            (row.name, MARKS[row.status], _text(row.residual, 2), _text(row.tolerance, 2)),
-            escape(row.detail),
-            row.status != "pass",
-        )
-        for row in report.checks
-    ]
-    console.print(fitting(console, with_sentences(("check", "status", "residual", "allowed"), (), "detail", rows)))
-
-
-def _quantities(report: MapReport) -> Iterator[Table]:
-    totals, harmonic = report.totals, report.harmonic
-    rows = (
-        ("dirichlet", _text(totals["dirichlet"]), "E(f) = ½ Σ |∇f|² area"),
-        ("area", _text(totals["area"]), "area of the source"),
-        ("image_area", _text(totals["image_area"]), "area of the image"),
-        ("nonconformality", _text(totals["nonconformality"]), "E(f) − area f(M) = Σ ½ (σ₁ − σ₂)² area; 0 if conformal"),
-        ("sigma_1", _between(report.sigma_1), "larger singular value per face"),
-        ("sigma_2", _between(report.sigma_2), "smaller singular value per face, without sign"),
-        ("area_distortion", _between(report.area_distortion), "area of the image per area, σ₁ σ₂"),
-        ("orientation", f"{report.orientation.turned_over:,}", "faces that are turned over"),
-        ("harmonic", _text(harmonic.residual_max), _where(harmonic)),
-    )
-    return with_sentences(
-        ("quantity", "value"), (), "what it is", [((name, value), meaning, True) for name, value, meaning in rows]
-    )
-
-
-def _where(harmonic: Harmonic) -> str:
-    if harmonic.vertex is None:
-        return "max |∇_p E(f)|: no vertex off the boundary"
-    return f"max |∇_p E(f)|, at vertex {harmonic.vertex}; rounding explains {_text(harmonic.rounding, 2)}"
-
-
 def _turned(sign: np.typing.NDArray[np.float64]) -> Turned:
     return Turned(*(int(np.count_nonzero(mask)) for mask in (sign > 0, sign < 0, np.isnan(sign))))
 
@@ -152,11 +103,3 @@ def _range(values: np.typing.NDArray[np.float64]) -> Range:
     known = values[~np.isnan(values)]
     nulls = len(values) - len(known)
     return Range(float(known.min()), float(known.max()), nulls) if len(known) else Range(None, None, nulls)
-
-
-def _between(values: Range) -> str:
-    return f"{_text(values.min)} … {_text(values.max)}" + (f", {values.nulls:,} undefined" if values.nulls else "")
-
-
-def _text(value: float | None, digits: int = 12) -> str:
-    return "undefined" if value is None else f"{value:.{digits}g}"

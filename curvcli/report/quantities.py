@@ -1,24 +1,16 @@
-"""What each quantity is, for the terminal and as data."""
+"""Facts of the quantities, as data and as the page of the documentation."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, TypedDict
-
-from rich.table import Table
 
 from ..curvatures.catalogue import load_passes, resolve
 from ..curvatures.quantity import CELL_AREA, NO_QUANTITIES, Quantity
 from ..curvatures.registry import passes
 from ..errors import UsageError
 from ..support.words import suggestion
-from .advice import plain
-from .terminal.console import escape, report_console
-from .terminal.fitting import fitting, plain_table
 
 _BOLD = str.maketrans("", "", "*")
-# The least width of a column of formulas.
-_FORMULA = 24
 
 
 class Facts(TypedDict):
@@ -108,56 +100,6 @@ def smallest_preset(quantity: Quantity) -> str:
 def as_data(name: str | None) -> Any:
     """The facts of one quantity, or of all."""
     return facts(find(name)) if name else [facts(quantity) for quantity in public()]
-
-
-def listing() -> None:
-    """Print a table of all quantities."""
-    headers = ("name", "symbol", "on", "kind", "unit")
-    tables = [_listed(headers[:count]) for count in (5, 4, 3, 2)]
-    console = report_console()
-    console.print(fitting(console, tables))
-    console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]\n")
-    advice = plain(console.width) if console.is_terminal else plain()
-    console.print(escape(advice), soft_wrap=True, end="")
-
-
-def _listed(headers: Sequence[str]) -> Table:
-    """All quantities with some of their facts and their formulas, which are folded."""
-    table = plain_table(*headers)
-    table.add_column("formula", overflow="fold", min_width=_FORMULA)
-    for quantity in public():
-        shown: dict[str, Any] = {**facts(quantity)}
-        marked = f"{quantity.name}{'' if shown['preset'] == 'core' else ' +'}"
-        cells = [marked, *(shown[header] for header in headers[1:]), shown["formula"]]
-        table.add_row(*(escape(cell) for cell in cells))
-    return table
-
-
-def describe(name: str) -> None:
-    """Print everything about one quantity."""
-    shown: dict[str, Any] = {**facts(find(name))}
-    table = Table(box=None, show_header=False, pad_edge=False)
-    table.add_column(style="bold", no_wrap=True)
-    table.add_column(overflow="fold")
-    labels = {
-        "symbol": "symbol",
-        "description": "what it is",
-        "formula": "formula",
-        "kind": "kind",
-        "unit": "unit",
-        "columns": "columns",
-        "boundary": "on the boundary",
-        "preserves": "what it preserves",
-        "total": "its sum",
-        "source": "source",
-        "needs": "needs",
-    }
-    table.add_row(shown["name"], f"on every {shown['on']}")
-    for key, label in labels.items():
-        value = ", ".join(shown[key]) if isinstance(shown[key], list) else shown[key]
-        if value:
-            table.add_row(label, escape(value))
-    report_console().print(table)
 
 
 def _reversed(quantity: Quantity) -> str:

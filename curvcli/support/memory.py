@@ -44,12 +44,8 @@ _used = False
 
 
 def bound(memory: int) -> None:
-    """Bound the address space of this process at what it takes now, polars at work included, and this much more."""
+    """Bound the address space of this process at its present size and this much more."""
     global _bounded
-    require_polars(0)
-    import polars as pl
-
-    pl.DataFrame({"x": [1.0]}).lazy().select(pl.col("x").sum()).collect()
     with contextlib.suppress(ImportError, OSError):
         import resource
 

@@ -190,16 +190,17 @@ def test_a_worker_does_not_outlive_its_parent(tmp_path: Path, trapped: dict[str,
 
 
 ONE_AFTER_THE_OTHER = """
-import importlib, os, sys
+import os, sys
 from curvcli.commands.allocation import keep_memory
 keep_memory()
 from curvcli.batch.model import Item, Limits, Settings
 from curvcli.batch.run import run
 from curvcli.support.memory import bound
-from curvcli.curvatures.engine import load_passes
+from curvcli.curvatures.catalogue import load_passes
+from curvcli.loading.libraries import import_libraries, start_polars
 load_passes()
-for name in ("polars", "scipy.sparse.csgraph", "trimesh.exchange.load"):
-    importlib.import_module(name)
+import_libraries()
+start_polars()
 LIMIT = int(sys.argv[2]) << 20
 bound(LIMIT)
 for number in range(3):

@@ -11,12 +11,15 @@ from rich.console import Console
 from curvcli.analysis.maps import SurfaceMap
 from curvcli.curves.collect import curves_of_surface
 from curvcli.curves.measure import CurveMeasures
-from curvcli.report import accuracy, advice, curves, maps
+from curvcli.report import accuracy, advice, curves
 from curvcli.report.check.model import CheckedMesh, CheckReport, Outcome, Rule
 from curvcli.report.compare import model as differences
 from curvcli.report.compare.exact import ErrorNorms
+from curvcli.report.terminal import accuracy as accuracy_text
 from curvcli.report.terminal import check as check_text
+from curvcli.report.terminal import compare as compare_text
 from curvcli.report.terminal import curves as curves_text
+from curvcli.report.terminal import maps as maps_text
 from tests.meshes import of_sample
 
 SENTENCE = "a sentence of several words that says what holds on every mesh and what does not, as identities do"
@@ -44,12 +47,12 @@ def of_differences() -> None:
     vector = differences.Change("totals.A_vec", "moved", [0.1 + 0.2, 1 / 3, 2 / 3], [0.5, 1 / 7, -2 / 7], 0.3, 1e-9)
     column = differences.ChangedColumn("kappa_1", 12345, 678, 90, 1 / 3, 0.1 + 0.2, 0.03, 1e-9)
     sides = (differences.Side("a.obj", "mesh"), differences.Side("b.json", "report"))
-    differences.show(differences.Comparison(1, "0", *sides, 1e-9, 0, False, 100, [change, vector], [column], []))
+    compare_text.show(differences.Comparison(1, "0", *sides, 1e-9, 0, False, 100, [change, vector], [column], []))
 
 
 def of_maps() -> None:
     surface = of_sample("cap", size=60).surface()
-    maps.show(SurfaceMap(surface, surface.points * [1.0, 2.0, 0.5]))
+    maps_text.show(SurfaceMap(surface, surface.points * [1.0, 2.0, 0.5]))
 
 
 def of_errors() -> None:
@@ -58,7 +61,7 @@ def of_errors() -> None:
         for name in ("kappa_1", "kappa_1_corrected_8e")
     ]
     sides = (differences.Side("a.obj", "mesh"), differences.Side("b.csv", "table"))
-    accuracy.show(accuracy.model(*sides, "2rings", 0.1, norms, [], []))
+    accuracy_text.show(accuracy.model(*sides, "2rings", 0.1, norms, [], []))
 
 
 KINDS: dict[str, tuple[Callable[[], None], tuple[str, ...]]] = {
@@ -89,7 +92,7 @@ def test_the_advice_fits(width: int) -> None:
 def test_it_fits(kind: str, width: int, monkeypatch: pytest.MonkeyPatch) -> None:
     stream = io.StringIO()
     made = Console(file=stream, width=width, force_terminal=True, color_system=None, highlight=False)
-    for module in (accuracy, check_text, curves_text, differences, maps):
+    for module in (accuracy_text, check_text, compare_text, curves_text, maps_text):
         monkeypatch.setattr(module, "report_console", lambda *options: made)
     show, words = KINDS[kind]
     show()

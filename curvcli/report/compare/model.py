@@ -1,27 +1,17 @@
-"""What is told of a comparison: as JSON, as a table, and as a summary for the terminal."""
+"""Report of a comparison, as JSON and as a table."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import Any
 
 import msgspec
 import numpy as np
-from rich.table import Table
 
 from ..._version import __version__
 from ...analysis.configuration import Configured
-from ..terminal.console import escape, report_console, show_configuration
-from ..terminal.fitting import fitting, plain_table, roomy_table
 from .cells import MovedColumn
 from .values import Difference, Tolerance
-
-# Rows of the summary; all with -v.
-_SHOWN = 40
-# The least width of a column of names.
-_NAME = 24
-_ABSENT = {"absent_in_a": "only in B", "absent_in_b": "only in A"}
 
 
 class Side(msgspec.Struct):
@@ -100,10 +90,10 @@ def model(
 
 def rows(found: Comparison) -> list[tuple[str, str, str, str, float | None, float | None]]:
     """Key, status, both values as text, move and allowance: one row per difference, columns of cells last."""
-    listed = [(d.key, d.status, _text(d.a), _text(d.b), d.moved, d.allowed) for d in found.differences]
+    listed = [(d.key, d.status, as_text(d.a), as_text(d.b), d.moved, d.allowed) for d in found.differences]
     for c in found.columns:
         status = "changed" if c.moved is None else "moved"
-        listed.append((f"vertices.{c.name}.{c.vertex}", status, _text(c.a), _text(c.b), c.moved, c.allowed))
+        listed.append((f"vertices.{c.name}.{c.vertex}", status, as_text(c.a), as_text(c.b), c.moved, c.allowed))
     return listed
 
 
@@ -122,58 +112,12 @@ def table(found: Comparison) -> dict[str, Any]:
     return columns
 
 
-def show(found: Comparison, verbose: int = 0) -> None:
-    """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
-    console = report_console(120)
-    console.print(f"A [bold]{escape(found.a.path)}[/bold] ({found.a.kind})")
-    console.print(f"B [bold]{escape(found.b.path)}[/bold] ({found.b.kind})")
-    for note in found.notes:
-        console.print(f"[yellow]note[/yellow] {escape(note)}")
-    show_configuration(console, found.configuration)
-    limits = f"rtol {found.rtol:g}, atol {found.atol:g}"
-    if found.equal:
-        console.print(f"[green]same[/green]: {found.compared:,} values compared, none differs beyond {limits}")
-        return
-    console.print(fitting(console, _moved(found, verbose)))
-    count = len(found.differences) + len(found.columns)
-    console.print(f"[bold red]DIFFERENT[/bold red]: {count:,} of {found.compared:,} values compared, beyond {limits}")
-
-
-def _moved(found: Comparison, verbose: int) -> Iterator[Table]:
-    """A row for each difference; with little room the values stand below its name, so that no digit is lost."""
-    wide, narrow = roomy_table(), plain_table("value", fold=_NAME)
-    for header in ("value", "A", "B", "moved", "allowed"):
-        wide.add_column(header, overflow="fold")
-    for header in ("moved", "allowed"):
-        narrow.add_column(header, no_wrap=True)
-
-    def add(name: str, a: str, b: str, moved: str, allowed: str) -> None:
-        wide.add_row(name, a, b, moved, allowed)
-        narrow.add_row(f"{name}\n  A {a}\n  B {b}", moved, allowed)
-
-    for d in found.differences[: None if verbose else _SHOWN]:
-        cells = (_ABSENT[d.status], "") if d.status in _ABSENT else (_number(d.moved, "changed"), _number(d.allowed))
-        add(escape(d.key), escape(_text(d.a)), escape(_text(d.b)), *cells)
-    hidden = len(found.differences) - _SHOWN
-    if hidden > 0 and not verbose:
-        for table in (wide, narrow):
-            table.add_row(f"[dim]… {hidden:,} more: -v[/dim]")
-    for c in found.columns:
-        where = f"vertices.{c.name}: {c.differing:,} of {c.rows:,}, most at vertex {c.vertex}"
-        add(escape(where), escape(_text(c.a)), escape(_text(c.b)), _number(c.moved, "changed"), _number(c.allowed))
-    yield wide
-    yield narrow
-
-
-def _text(value: Any) -> str:
+def as_text(value: Any) -> str:
+    """A value of either side as text that says every digit."""
     if value is None:
         return "null"
     if isinstance(value, list):
-        return "(" + ", ".join(map(_text, value)) + ")"
+        return "(" + ", ".join(map(as_text, value)) + ")"
     if isinstance(value, bool):
         return str(value).lower()
     return repr(value) if isinstance(value, float) else str(value)
-
-
-def _number(value: float | None, otherwise: str = "") -> str:
-    return otherwise if value is None else f"{value:.2g}"

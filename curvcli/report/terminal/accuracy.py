@@ -1,0 +1,65 @@
+"""The errors of columns against exact values, for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from rich.table import Table
+
+from .console import escape, report_console, show_configuration
+from .fitting import add_numbers, fitting, plain_table, roomy_table
+
+if TYPE_CHECKING:
+    from ..accuracy import Accuracy
+
+
+def show(found: Accuracy) -> None:
+    """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
+    console = report_console(120)
+    console.print(f"mesh [bold]{escape(found.mesh.path)}[/bold], exact values [bold]{escape(found.exact.path)}[/bold]")
+    for note in found.notes:
+        console.print(f"[yellow]note[/yellow] {escape(note)}")
+    show_configuration(console, found.configuration)
+    console.print(fitting(console, _errors(found)))
+    if found.unmatched:
+        console.print(f"[dim]without an exact value: {', '.join(map(escape, found.unmatched))}[/dim]")
+    if not found.equal:
+        console.print(f"[bold red]FAIL[/bold red]: a relative L2 error is above {found.rtol:g}")
+
+
+def _errors(found: Accuracy) -> Iterator[Table]:
+    """The norms of each column; fewer of them where the terminal is narrow."""
+    every = ("relative L2", "Linf", "at vertex", "RMS", "bias", "relative", "null", "compared")
+    both = ("column", "against")
+    for make, names, numbers in (
+        (roomy_table, both, every),
+        (plain_table, both, every),
+        (plain_table, both, every[:6]),
+        (plain_table, both, every[:3]),
+        (plain_table, both[:1], every[:3]),
+        (plain_table, both[:1], every[:1]),
+    ):
+        table = make(*names)
+        add_numbers(table, *numbers)
+        for name, row in found.errors.items():
+            late = found.rtol is not None and row.relative_l2 is not None and row.relative_l2 > found.rtol
+            relative = _number(row.relative_l2)
+            told = {
+                "column": name,
+                "against": row.exact,
+                "relative L2": f"[bold red]{relative}[/bold red]" if late else relative,
+                "Linf": _number(row.linf),
+                "at vertex": "" if row.vertex is None else str(row.vertex),
+                "RMS": _number(row.rms),
+                "bias": _number(row.bias),
+                "relative": _number(row.relative_bias),
+                "null": f"{row.nulls:,}" if row.nulls else "",
+                "compared": f"{row.compared:,}",
+            }
+            table.add_row(*(told[key] for key in (*names, *numbers)))
+        yield table
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.3g}"
