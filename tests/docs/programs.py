@@ -43,14 +43,16 @@ def served(folder: Path, **more: str) -> Iterator[None]:
                 server.communicate()
 
 
-def shell(code: str, folder: Path, programs: Path, **more: str) -> None:
-    """Run commands in a folder, in one shell; a command that fails fails the test."""
+def shell(code: str, folder: Path, programs: Path, **more: str) -> str:
+    """Run commands in a folder, in one shell, and return their output; a command that fails fails the test."""
     done = subprocess.run(
         ["bash", "-euo", "pipefail", "-c", code],
         cwd=folder,
         env=environment(PATH=f"{programs}{os.pathsep}{environment()['PATH']}", **more),
-        capture_output=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,  # in the order in which a reader sees both
         text=True,
         timeout=300,
     )
-    assert done.returncode == 0, f"{code}\n{done.stdout}\n{done.stderr}"
+    assert done.returncode == 0, f"{code}\n{done.stdout}"
+    return done.stdout

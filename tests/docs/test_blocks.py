@@ -6,6 +6,7 @@ import json
 import shutil
 import tomllib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import yaml
 
 from tests.docs.pages import NAMES, ROOT, Block, blocks
 from tests.docs.programs import provide, served, shell
+from tests.docs.shown import OUTPUT, missing
 
 RUN = ("sh", "python")
 SHOWN = ("text", "yaml", "toml", "json", "make", "snakemake", "dockerfile", "csv")
@@ -23,16 +25,29 @@ FOLLOWED = "docs/add-a-pass.md"
 
 # What a README installs, the continuous integration installs in an empty environment: see `.ci/run`.
 INSTALLS = "pip install"
+INSTALLED = "pip install . && "
 
 
 def runnable(name: str) -> list[Block]:
-    """The blocks of a page that are to run."""
-    return [
-        block
-        for block in blocks(name)
-        if block.language in RUN and not block.reason and not (name == "README.md" and INSTALLS in block.code)
-        if name != FOLLOWED
-    ]
+    """The blocks of a page that are to run; of the README without the installation."""
+    found = [block for block in blocks(name) if block.language in RUN and not block.reason and name != FOLLOWED]
+    if name == "README.md":
+        found = [replace(block, code=block.code.removeprefix(INSTALLED)) for block in found]
+        return [block for block in found if INSTALLS not in block.code]
+    return found
+
+
+def outputs_of(name: str) -> dict[int, str]:
+    """The output that a page shows after a block of commands, by the line of the commands."""
+    pairs = zip(blocks(name), blocks(name)[1:], strict=False)
+    return {block.line: after.code for block, after in pairs if block.language == "sh" and after.title == OUTPUT}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_output_stands_behind_its_commands(name: str) -> None:
+    shown = len(outputs_of(name))
+    assert shown == sum(block.title == OUTPUT for block in blocks(name))
+    assert shown >= {"README.md": 1, "docs/tutorial.md": 5}.get(name, 0)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -103,13 +118,17 @@ def test_blocks_run(name: str, stage: Path, programs: Path, tmp_path: Path, monk
     monkeypatch.chdir(folder)
     names: dict[str, Any] = {"__name__": "page"}
     waiting: list[str] = []
+    outputs = outputs_of(name)
     for block in [*runnable(name), None]:
-        if block is not None and block.language == "sh":
+        if block is not None and block.language == "sh" and block.line not in outputs:
             waiting.append(block.code)
             continue
         if waiting:
             shell("\n".join(waiting), folder, programs)
             waiting = []
-        if block is not None:
+        if block is not None and block.language == "sh":
+            printed = shell(block.code, folder, programs)
+            assert missing(outputs[block.line], printed) == [], f"{name}:{block.line}\n{printed}"
+        elif block is not None:
             code = "\n" * (block.line - 1) + block.code
             exec(compile(code, str(ROOT / name), "exec"), names)
