@@ -27,13 +27,13 @@ def curvcli(points: Any, faces: Any) -> dict[str, Any]:
     """The core preset and every count of the topology."""
     from curvcli.curvatures.catalogue import CORE, loaded
     from curvcli.curvatures.engine import evaluate, prepare
-    from curvcli.mesh.counts import census, classify
+    from curvcli.mesh.counts import classify, count_groups
     from curvcli.mesh.surface import Surface
 
     surface = Surface(points, faces)
     prepare(loaded(), surface, CORE)  # as every analysis does
     columns = evaluate(loaded(), surface, CORE)
-    return {**columns, "census": census(surface, surface.whole), "kinds": classify(surface, surface.whole)}
+    return {**columns, "census": count_groups(surface, surface.whole), "kinds": classify(surface, surface.whole)}
 
 
 def _memory(field: str) -> int:

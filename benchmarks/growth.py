@@ -20,7 +20,7 @@ def preset(name: str, path: str) -> None:
     """Time a preset with the topology, per vertex, on the mesh, after one run of it on a small mesh."""
     from curvcli.curvatures.catalogue import loaded, resolve
     from curvcli.curvatures.engine import evaluate, prepare
-    from curvcli.mesh.counts import census, classify
+    from curvcli.mesh.counts import classify, count_groups
     from curvcli.mesh.surface import Surface
     from curvcli.samples import get
 
@@ -33,7 +33,7 @@ def preset(name: str, path: str) -> None:
         names = resolve([name])
         prepare(loaded(), surface, names)  # as every analysis does
         found = evaluate(loaded(), surface, names)
-        census(surface, surface.whole), classify(surface, surface.whole)
+        count_groups(surface, surface.whole), classify(surface, surface.whole)
         elapsed = time.perf_counter() - begin
     report({"seconds": elapsed / len(points) * 1e6, "columns": len(found)})
 

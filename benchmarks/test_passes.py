@@ -13,7 +13,7 @@ from benchmarks.meshes import make
 from curvcli.curvatures.catalogue import load_passes, loaded
 from curvcli.curvatures.engine import arguments, evaluate
 from curvcli.curvatures.registry import passes
-from curvcli.mesh.neighbourhoods import forget
+from curvcli.mesh.neighbourhoods import clear_cache
 from curvcli.mesh.surface import Surface
 
 Columns = dict[str, NDArray[Any]]
@@ -32,12 +32,12 @@ def mesh(pytestconfig: pytest.Config) -> tuple[NDArray[np.float64], NDArray[np.i
 def everything(mesh: tuple[NDArray[np.float64], NDArray[np.int64]]) -> tuple[Surface, Columns]:
     """The surface with its edges and topology, and all columns, so that every pass finds what it needs."""
     surface = Surface(*mesh)
-    surface.work_out_topology()
+    surface.compute_topology()
     return surface, evaluate(loaded(), surface, [quantity.name for quantity in passes.quantities(public=False)])
 
 
 def test_topology(benchmark: BenchmarkFixture, mesh: tuple[NDArray[np.float64], NDArray[np.int64]]) -> None:
-    benchmark.pedantic(lambda: Surface(*mesh).work_out_topology(), rounds=ROUNDS, warmup_rounds=1)
+    benchmark.pedantic(lambda: Surface(*mesh).compute_topology(), rounds=ROUNDS, warmup_rounds=1)
 
 
 @pytest.mark.parametrize("name", passes)
@@ -45,4 +45,4 @@ def test_pass(benchmark: BenchmarkFixture, everything: tuple[Surface, Columns], 
     surface, columns = everything
     given = arguments(passes[name], surface, columns)
     # Neighbourhoods are kept from one pass to the next: here each pass makes its own.
-    benchmark.pedantic(passes[name].compute, given, setup=lambda: forget(surface), rounds=ROUNDS, warmup_rounds=1)
+    benchmark.pedantic(passes[name].compute, given, setup=lambda: clear_cache(surface), rounds=ROUNDS, warmup_rounds=1)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .support.words import agree
+from .support.words import pluralize
 
 
 class CurvcliError(Exception):
@@ -79,8 +79,8 @@ class Notice:
     @classmethod
     def of(cls, code: str, some: Sequence[int | str], message: str, hint: str | None, count: int) -> Notice:
         """A notice of so many, the first few of which are known."""
-        words = None if hint is None else agree(count, hint)
-        return cls(code, count, agree(count, message), words, tuple(some[:5]))
+        words = None if hint is None else pluralize(count, hint)
+        return cls(code, count, pluralize(count, message), words, tuple(some[:5]))
 
 
 # The exit codes of the interface.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from curvcli.mesh.bodies import taken_apart
+from curvcli.mesh.bodies import split_bodies
 from tests import meshes
 from tests.check.gates import judged, outcome
 from tests.meshes import Mesh
@@ -47,7 +47,7 @@ def test_bodies_that_share(name: str, seed: int | None, turn: int) -> None:
     made, label = welded(*parts, seed=seed)
     if turn:
         made = made.moved(made.points @ meshes.rotation(turn).T + 10.0 * (turn - 1))
-    apart = taken_apart(made.surface())
+    apart = split_bodies(made.surface())
     assert apart.solids.count == len(parts)
     patch = apart.orientation.patch
     # Coincident faces of a wall may change places.
@@ -88,16 +88,16 @@ def test_one_of_two_is_inside_out(name: str, which: int) -> None:
 def test_a_core_in_a_cavity_with_its_walls() -> None:
     outer = box([-1, -1, -1], [2, 2, 2])
     made, _ = welded(outer, meshes.reversed_faces(UNIT), UNIT)
-    apart = taken_apart(made.surface())
+    apart = split_bodies(made.surface())
     assert apart.solids.depth.tolist() == [0, 1, 2]
     assert outcome(judged(made, "outward"), "outward").status == "pass"
 
 
 def test_nothing_to_take_apart() -> None:
     surface = meshes.icosphere().surface()
-    assert taken_apart(surface) is surface
+    assert split_bodies(surface) is surface
     book = meshes.book(3).surface()
-    assert taken_apart(book).nonmanifold_edges.sum() == 1
+    assert split_bodies(book).nonmanifold_edges.sum() == 1
 
 
 @pytest.mark.parametrize("name", TOUCHING)

@@ -8,7 +8,7 @@ import inspect
 import numpy as np
 
 import curvcli
-from curvcli.mesh.counts import census
+from curvcli.mesh.counts import count_groups
 from curvcli.mesh.groups import Groups, by_label
 from curvcli.mesh.surface import Surface
 from curvcli.support.cache import cached
@@ -21,7 +21,7 @@ def test_groups_that_are_gone_are_not_mistaken_for_new_ones() -> None:
     surface = meshes.two_bodies().surface()
     for count in range(1, 60):
         label = (np.arange(surface.n_faces) < count).astype(np.int32)
-        found = census(surface, by_label(surface, label, 2, "region"))
+        found = count_groups(surface, by_label(surface, label, 2, "region"))
         assert found.faces.tolist() == [surface.n_faces - count, count]
 
 
@@ -31,8 +31,8 @@ def test_groups_answer_for_the_surface_that_is_asked_about() -> None:
     assert torus.whole.edges(torus).size == len(torus.edges)
     assert torus.whole.edges(cube).size == len(cube.edges) == 18
     assert torus.whole.edges(torus).size == len(torus.edges)
-    assert census(torus, torus.whole).edges.tolist() == [len(torus.edges)]
-    assert census(cube, torus.whole).edges.tolist() == census(cube, cube.whole).edges.tolist()
+    assert count_groups(torus, torus.whole).edges.tolist() == [len(torus.edges)]
+    assert count_groups(cube, torus.whole).edges.tolist() == count_groups(cube, cube.whole).edges.tolist()
 
 
 def test_results_go_with_what_they_were_found_of() -> None:

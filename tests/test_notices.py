@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import curvcli
-from curvcli.support.words import agree, counted, number_of
+from curvcli.support.words import counted, number_of, pluralize
 from tests.fuzz.contract import in_process
 from tests.fuzz.nasty import TETRAHEDRON, TEXT_STL
 
@@ -116,7 +116,7 @@ def test_every_warning_of_the_source_has_a_hint() -> None:
 
 
 def test_words_agree_with_their_number() -> None:
-    assert agree(1, "[face|faces] [that is|that are] [|no] x") == "face that is  x"
-    assert agree(0, "[face|faces]") == agree(2, "[face|faces]") == "faces"
+    assert pluralize(1, "[face|faces] [that is|that are] [|no] x") == "face that is  x"
+    assert pluralize(0, "[face|faces]") == pluralize(2, "[face|faces]") == "faces"
     assert [counted(n, "face") for n in (0, 1, 1000)] == ["0 faces", "1 face", "1,000 faces"]
     assert [number_of(n, "vertex", "vertices") for n in (1, 1000)] == ["1 vertex", "1000 vertices"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.mesh.seams import near_seam, way_to_close
+from curvcli.mesh.seams import describe_best_welding, near_seam
 from tests import meshes
 from tests.cli.program import curvcli as program
 from tests.meshes import Mesh, mesh, of_sample
@@ -58,7 +58,7 @@ def test_following_the_hint_closes_the_mesh(name: str, gap: float, tmp_path: Pat
         seam = near_seam(surface)
         assert seam is not None
         boundary = len(surface.boundary_half_edges)
-        assert way_to_close(surface) == f"--weld {seam.tolerance} closes all {boundary} boundary edges"
+        assert describe_best_welding(surface) == f"--weld {seam.tolerance} closes all {boundary} boundary edges"
         assert float(seam.tolerance) <= max(1.1 * gap, 1e-12)
         path = made.moved(made.points * scale).write(tmp_path / "cut.obj")
         welded = curvcli.load(path, weld=float(seam.tolerance))
@@ -135,9 +135,9 @@ def test_no_seam(make: object) -> None:
 def test_exact_seams_keep_their_own_hint() -> None:
     made = cut(BODIES["sphere"](), 0.0)
     assert near_seam(made.surface()) is None
-    assert re.fullmatch(r"--weld exact would close all \d+ boundary edges", way_to_close(made.surface()))
+    assert re.fullmatch(r"--weld exact would close all \d+ boundary edges", describe_best_welding(made.surface()))
 
 
 def test_a_hole_has_no_hint() -> None:
     found = meshes.grid().surface()
-    assert way_to_close(found) == ""
+    assert describe_best_welding(found) == ""

@@ -7,7 +7,7 @@ import pytest
 
 import curvcli
 from curvcli.samples import get
-from curvcli.support.blocks import another_thread, each, for_each
+from curvcli.support.blocks import background_thread, for_each, map_pieces
 from tests import meshes
 
 NAMES = ("K_plus", "K_abs", "theta", "edge_H_vec", "beta", "willmore_conformal", "dir_1", "dir_2")
@@ -50,7 +50,7 @@ def test_a_failure_in_another_thread_is_raised_where_it_is_asked_for(
     def work() -> int:
         raise MemoryError
 
-    with another_thread() as begun:
+    with background_thread() as begun:
         result = begun(work)
         with pytest.raises(MemoryError):
             result()
@@ -78,8 +78,8 @@ def test_what_numpy_is_to_do_about_errors_holds_in_threads_too(threads: str, mon
         return float((huge * huge)[0])
 
     with np.errstate(over="ignore"):
-        assert list(each(range(3), square)) == [np.inf] * 3
-        with another_thread() as begun:
+        assert list(map_pieces(range(3), square)) == [np.inf] * 3
+        with background_thread() as begun:
             assert begun(lambda: square(0))() == np.inf
     with np.errstate(over="raise"), pytest.raises(FloatingPointError):
-        list(each(range(3), square))
+        list(map_pieces(range(3), square))

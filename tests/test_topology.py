@@ -43,7 +43,7 @@ def test_the_report_counts_what_there_is(given: Mesh) -> None:
 @example(meshes.two_bodies())
 def test_edges_that_were_let_go_change_nothing(given: Mesh) -> None:
     """They are let go unless a quantity comes by way of them."""
-    with mock.patch("curvcli.mesh.surface.Surface.let_go_of_edges"):
+    with mock.patch("curvcli.mesh.surface.Surface.release_edges"):
         kept = curvcli.analyze(given.surface(), "paper")
     found = curvcli.analyze(given.surface(), "core")
     assert "edges" not in vars(found.surface)

@@ -7,7 +7,7 @@ from typing import Any
 
 import msgspec
 
-from ..support.words import shown
+from ..support.words import escape_text
 
 
 class Configuration(msgspec.Struct, frozen=True):
@@ -19,12 +19,14 @@ class Configuration(msgspec.Struct, frozen=True):
     @property
     def sentence(self) -> str:
         """For people, on one line."""
-        return shown(f"configuration: {self.file} sets {self.words}")
+        return escape_text(f"configuration: {self.file} sets {self.words}")
 
     @property
     def words(self) -> str:
         """Every option with its value."""
-        return shown(", ".join(f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in self.sets.items()))
+        return escape_text(
+            ", ".join(f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in self.sets.items())
+        )
 
 
 Configured = Configuration | msgspec.UnsetType
@@ -33,7 +35,7 @@ Configured = Configuration | msgspec.UnsetType
 
 def configured(found: Configuration | None) -> Configured:
     """The field of a report."""
-    return msgspec.UNSET if found is None else msgspec.structs.replace(found, file=shown(found.file))
+    return msgspec.UNSET if found is None else msgspec.structs.replace(found, file=escape_text(found.file))
 
 
 def sentence(found: Configured) -> str | None:

@@ -12,13 +12,13 @@ from ..curvatures.quantity import AT_SCALE
 from ..errors import Notice
 from ..mesh.counts import duplicate_faces, duplicate_vertices
 from ..mesh.precision import is_single, last_place
-from ..mesh.scale import in_words
-from ..mesh.seams import closing, near_seam, welding
-from ..mesh.solids.notices import of_solids
+from ..mesh.scale import describe_scales
+from ..mesh.seams import describe_closing, describe_exact_welding, near_seam
+from ..mesh.solids.notices import solid_notices
 from ..mesh.surface import Surface
 from ..mesh.triangles import dot, span
 from ..mesh.walls import WALL, facing_pairs
-from ..support.words import agree, counted
+from ..support.words import counted, pluralize
 
 # Rounding of the coordinates that moves K by more than this many radians is worth a warning: to doubles; and to
 # float32, which is what most files hold and what their users know, where it spoils K altogether.
@@ -36,7 +36,7 @@ def out_of_range(lost: Mapping[str, int]) -> list[Notice]:
     if not names:
         return []
     count = sum(lost.values())
-    message = agree(count, "[result|results] beyond the range of doubles in the file's unit, left undefined: ")
+    message = pluralize(count, "[result|results] beyond the range of doubles in the file's unit, left undefined: ")
     hint = "scale the mesh to an extent near 1: angles and energies stay, lengths and areas become numbers"
     return [Notice("out_of_range", count, message + ", ".join(names), hint)]
 
@@ -45,7 +45,7 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     yield from _not_a_manifold(surface)
     yield from _vertices_and_faces(surface, columns)
     yield from _winding(surface)
-    yield from of_solids(surface)
+    yield from solid_notices(surface)
     if "star_extent" in columns:
         yield from _coordinate_rounding(surface, columns)
     if "kappa_clamped" in columns:
@@ -89,8 +89,8 @@ def _not_fitted(columns: Mapping[str, Any]) -> Iterator[Notice]:
             yield Notice.at(
                 "no_graph",
                 np.flatnonzero(columns[name]),
-                f"[vertex|vertices] whose neighbourhood{f' ({in_words(scale)})' if scale else ''} folds over or bends "
-                "more than a graph over its tangent plane can; local fits are undefined there",
+                f"[vertex|vertices] whose neighbourhood{f' ({describe_scales(scale)})' if scale else ''} folds over or "
+                "bends more than a graph over its tangent plane can; local fits are undefined there",
                 "*_corrected needs no plane; a smaller scale bends less, and a finer mesh tells more",
             )
 
@@ -166,7 +166,7 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
         "duplicate_vertices",
         vertices,
         "[vertex|vertices] at exactly the position of an earlier one",
-        welding(surface) if len(vertices) else None,
+        describe_exact_welding(surface) if len(vertices) else None,
     )
     seam = near_seam(surface)
     if seam is not None:
@@ -174,13 +174,13 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
             "near_vertices",
             seam.vertices,
             "boundary vertices nearly coincide",
-            closing(surface, seam),
+            describe_closing(surface, seam),
         )
 
 
 def _winding(surface: Surface) -> Iterator[Notice]:
     flipped = surface.orientation.flipped
-    turned = f"; {counted(flipped, 'face')} {agree(flipped, '[was|were]')} turned for the computation"
+    turned = f"; {counted(flipped, 'face')} {pluralize(flipped, '[was|were]')} turned for the computation"
     yield Notice.at(
         "inconsistent_winding",
         np.flatnonzero(surface.winding_conflicts),

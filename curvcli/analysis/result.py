@@ -12,14 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..checks import Check, rules
-from ..checks.listing import summarised
+from ..checks.listing import summarise_checks
 from ..curvatures.catalogue import at_scales
-from ..curvatures.engine import evaluate, prepare, presented, schedule
+from ..curvatures.engine import evaluate, in_file_unit, prepare, schedule
 from ..curvatures.quantity import AT_SCALE, Element, Quantity
 from ..curvatures.registry import passes
 from ..errors import Notice
-from ..loading.labels import Regions, cut_apart, find_regions
-from ..loading.labels import findings as region_findings
+from ..loading.labels import Regions, cut_along_regions, find_regions, region_notices
 from ..loading.load import as_surface
 from ..mesh.groups import Groups
 from ..mesh.scale import DEFAULTS
@@ -77,7 +76,7 @@ class Result:
         self._named: dict[Element, dict[str, tuple[Quantity, int | None]]] = {}
         self.cut: Result | None = None
         if regions is not None:
-            cut, self.cut_groups = cut_apart(surface, regions)
+            cut, self.cut_groups = cut_along_regions(surface, regions)
             self.cut = Result(cut, replace(request, regions=None), checks=[rule.name for rule in self._rules])
 
     @cached_property
@@ -108,7 +107,7 @@ class Result:
 
     def column(self, name: str) -> Array:
         """One column as a user sees it: (n,), (n, 3), or strings for labels."""
-        return presented(passes.quantity(name), self._column(name), self.surface, self.request.mean)
+        return in_file_unit(passes.quantity(name), self._column(name), self.surface, self.request.mean)
 
     def shown(self, name: str) -> Array:
         """The same, kept for whoever asks again."""
@@ -171,7 +170,7 @@ class Result:
         found: list[Check] = []
         for rule in self._rules:
             each = rule.run(self.surface, groups, self.columns)
-            found += each if groups.count <= LISTED_GROUPS else summarised(each, f"{groups.kind}s")
+            found += each if groups.count <= LISTED_GROUPS else summarise_checks(each, f"{groups.kind}s")
         return found
 
     @property
@@ -191,7 +190,7 @@ class Result:
         found += of_stars(self.surface, self.columns, self.chosen, self.totals, asked)
         found += findings.out_of_range(self._lost)
         if self.cut is not None and self.regions is not None:
-            found += region_findings(self.cut.surface, self.cut_groups, self.regions)
+            found += region_notices(self.cut.surface, self.cut_groups, self.regions)
         return found
 
     @property

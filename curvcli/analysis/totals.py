@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..curvatures.quantity import AT_SCALE, Quantity
 from ..curvatures.registry import passes
-from ..mesh.counts import census
+from ..mesh.counts import count_groups
 from ..mesh.enclosed import volumes
 from ..mesh.groups import Groups, Segments
 from ..mesh.surface import Surface
@@ -47,7 +47,7 @@ def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
 
 def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> Iterator[tuple[str, Floats, int, int]]:
     """Key, values in the unit of computation, length exponent and degree in H of every total."""
-    orientable = census(surface, groups).orientable
+    orientable = count_groups(surface, groups).orientable
     for quantity in summed(columns):
         total = _sum(groups.of(surface, quantity.on), quantity, columns[quantity.name])
         if quantity.parity == "odd":

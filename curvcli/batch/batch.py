@@ -14,7 +14,7 @@ import msgspec
 
 from .._version import __version__
 from ..errors import FAILED_CHECK, INTERNAL, OK, OUTPUT
-from ..support.words import shown
+from ..support.words import escape_text
 from .locations import hash_of, is_url, length_of, read_url
 from .manifest import Manifest
 from .model import Engine, Item, Row, Settings
@@ -98,7 +98,7 @@ class Batch:
         return msgspec.structs.replace(row, exit_code=code)
 
     def _shown(self, item: Item) -> list[str]:
-        return [shown(os.path.relpath(path, self.folder)).replace(os.sep, "/") for _, path in item.outputs]
+        return [escape_text(os.path.relpath(path, self.folder)).replace(os.sep, "/") for _, path in item.outputs]
 
 
 def _hash(item: Item) -> str | None:

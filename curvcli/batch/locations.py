@@ -13,7 +13,7 @@ from urllib.parse import unquote, urlsplit
 
 from ..errors import InputError, MissingExtraError, NoMatchError, UsageError
 from ..loading.content import open_regular, read_limited, read_stream
-from ..support.words import shown
+from ..support.words import escape_text
 from .walk import files_of, is_wild, spellings
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
@@ -34,7 +34,7 @@ def absolute(path: str) -> str:
         return os.path.abspath(path)
     except OSError as error:
         raise InputError(
-            f"the working folder is gone ({error.strerror})", path=shown(path), hint="name the whole path"
+            f"the working folder is gone ({error.strerror})", path=escape_text(path), hint="name the whole path"
         ) from None
 
 
@@ -60,7 +60,7 @@ def parts_of(place: str) -> tuple[str, ...]:
     if is_url(place):
         url = urlsplit(place)
         parts = (url.scheme, url.netloc, *unquote(url.path).split("/"))
-        return tuple(shown(part).replace(os.sep, "_") for part in parts if part not in ("", ".", ".."))
+        return tuple(escape_text(part).replace(os.sep, "_") for part in parts if part not in ("", ".", ".."))
     drive, rest = os.path.splitdrive(absolute(place))
     return (drive.strip(":\\/").replace("\\", "_"), *(part for part in rest.split(os.sep) if part))
 
@@ -74,7 +74,7 @@ def expand(pattern: str) -> list[str]:
     found = _expand_url(pattern) if is_url(pattern) else _expand_path(pattern)
     if not found:
         hint = f"; {pattern.rstrip(os.sep)}/**/* names the files in this folder" if os.path.isdir(pattern) else ""
-        raise NoMatchError(f"{shown(pattern)}: no file matches{hint}")
+        raise NoMatchError(f"{escape_text(pattern)}: no file matches{hint}")
     return found
 
 
@@ -96,7 +96,7 @@ def _expand_url(pattern: str) -> list[str]:
         found = [name for name in names if not name.endswith("/")]
         return sorted(str(files.unstrip_protocol(name)) for name in found if _is_file(files, name))
     except Exception as error:
-        raise InputError(f"cannot be listed ({_told(error)})", path=shown(pattern)) from error
+        raise InputError(f"cannot be listed ({_told(error)})", path=escape_text(pattern)) from error
 
 
 def _is_file(files: Any, name: str) -> bool:
@@ -126,21 +126,21 @@ def read_url(place: str, max_bytes: int | None) -> bytes:
 
 def _file_system(place: str) -> tuple[Any, str]:
     if "::" in place:
-        raise UsageError(f"{shown(place)}: URLs within URLs are not read; unpack the archive first")
+        raise UsageError(f"{escape_text(place)}: URLs within URLs are not read; unpack the archive first")
     try:
         from fsspec.core import url_to_fs
 
         found: tuple[Any, str] = url_to_fs(place)
     except ImportError as error:
         install = "pip install 'curvcli[remote]'"
-        raise MissingExtraError(f"{shown(place)}: {_told(error)}; `{install}` reads http and s3") from None
+        raise MissingExtraError(f"{escape_text(place)}: {_told(error)}; `{install}` reads http and s3") from None
     except Exception as error:
-        raise UsageError(f"{shown(place)}: {_told(error)}") from None
+        raise UsageError(f"{escape_text(place)}: {_told(error)}") from None
     return found
 
 
 def _told(error: BaseException) -> str:
-    return shown(" ".join((str(error) or type(error).__name__).split()))
+    return escape_text(" ".join((str(error) or type(error).__name__).split()))
 
 
 def listed(source: str) -> list[str]:
@@ -156,7 +156,7 @@ def listed(source: str) -> list[str]:
                 text = stream.read()
         except OSError as error:
             reason = error.strerror or str(error)
-            raise InputError(f"the list cannot be read ({reason})", path=shown(source)) from None
+            raise InputError(f"the list cannot be read ({reason})", path=escape_text(source)) from None
     names = text.split(b"\0") if b"\0" in text else text.splitlines()
     return [os.fsdecode(name) for name in names if name.strip()]
 

@@ -10,7 +10,7 @@ from types import TracebackType
 import msgspec
 
 from ..errors import OutputError
-from ..support.words import shown
+from ..support.words import escape_text
 from .model import MANIFEST as NAME
 from .model import Row
 
@@ -82,15 +82,15 @@ class Manifest:
             try:
                 fcntl.flock(self._stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
-                raise OutputError(f"{shown(self.path)}: another batch is writing it; wait for its end") from None
+                raise OutputError(f"{escape_text(self.path)}: another batch is writing it; wait for its end") from None
 
 
 def _check(folder: str, resume: bool, force: bool) -> None:
     there = os.listdir(folder)
     if resume and there and NAME not in there and not force:
-        raise OutputError(f"{shown(folder)}: is not empty and has no {NAME} to resume; choose another folder")
+        raise OutputError(f"{escape_text(folder)}: is not empty and has no {NAME} to resume; choose another folder")
     if there and not resume and not force:
-        raise OutputError(f"{shown(folder)}: is not empty; --resume goes on there, --force begins anew")
+        raise OutputError(f"{escape_text(folder)}: is not empty; --resume goes on there, --force begins anew")
 
 
 @contextlib.contextmanager
@@ -98,4 +98,4 @@ def _explained(path: str) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise OutputError(f"{shown(path)}: cannot be written: {error.strerror or error}") from error
+        raise OutputError(f"{escape_text(path)}: cannot be written: {error.strerror or error}") from error

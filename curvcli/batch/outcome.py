@@ -5,14 +5,14 @@ from __future__ import annotations
 import signal
 
 from ..errors import INPUT, INTERNAL, OUTPUT, InputError, OutputError, UsageError, defect
-from ..support.memory import ran_out
-from ..support.words import shown
+from ..support.memory import is_out_of_memory
+from ..support.words import escape_text
 from .model import Limits, Row, Status
 
 
 def explained(path: str, error: BaseException, limits: Limits) -> Row:
     """The row of a mesh whose analysis raised an error; a limit that the user set is the mesh's fault, not ours."""
-    if ran_out(error):
+    if is_out_of_memory(error):
         allowed = limits.memory is not None
         text = (
             f"{path}: needs more memory than --max-memory allows; a larger limit takes it"
@@ -29,7 +29,7 @@ def explained(path: str, error: BaseException, limits: Limits) -> Row:
         case _:
             text, code = defect(error), INTERNAL
     named = text if text.startswith(f"{path}:") or code == OUTPUT else f"{path}: {text}"
-    return Row(path=path, status="error", exit_code=code, error=shown(" ".join(named.split("\n"))))
+    return Row(path=path, status="error", exit_code=code, error=escape_text(" ".join(named.split("\n"))))
 
 
 def lost(path: str, returncode: int, limits: Limits, *, late: bool) -> Row:

@@ -11,7 +11,7 @@ from ..errors import NoMatchError, UsageError
 from ..output.destinations import folded
 from ..output.formats import FORMATS, format_of
 from ..output.tables.columns import TABLES
-from ..support.words import shown, suggestion
+from ..support.words import escape_text, suggestion
 from .locations import absolute, expand, is_url, listed, local, parts_of, read_url, root_of
 from .model import OWN, Item
 from .walk import real_path
@@ -37,14 +37,14 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
     for pattern in map(local, patterns):
         found = [name for name in expand(pattern) if name == pattern or not _is_output(name, within, of_folder)]
         if not found:
-            raise NoMatchError(f"{shown(pattern)}: no file matches outside {shown(folder)}")
+            raise NoMatchError(f"{escape_text(pattern)}: no file matches outside {escape_text(folder)}")
         named += [(name, _place(name)) for name in found]
         roots.append(root_of(pattern))
     for name in map(local, listed(files_from) if files_from is not None else []):
         named.append((name, _place(name)))
         roots.append(parts_of(name)[:-1])
     if not named:
-        raise NoMatchError(f"{shown(files_from or 'no pattern')}: names no file")
+        raise NoMatchError(f"{escape_text(files_from or 'no pattern')}: names no file")
     base = _shared(roots)
     items, seen, names = [], set[str](), Counter[str]()
     free = _Free(inside, save)
@@ -55,9 +55,11 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
         seen.add(file)
         stem = free.stem(parts_of(place)[base:])
         content = read_url(place, None) if place.startswith(_OF_ONE_PROCESS) else None
-        names[shown(name)] += 1
-        again = f"~{names[shown(name)]}" if names[shown(name)] > 1 else ""  # two names that read alike once escaped
-        items.append(Item(shown(name) + again, place, outputs(stem, save), content))
+        names[escape_text(name)] += 1
+        again = (
+            f"~{names[escape_text(name)]}" if names[escape_text(name)] > 1 else ""
+        )  # two names that read alike once escaped
+        items.append(Item(escape_text(name) + again, place, outputs(stem, save), content))
     return items
 
 
@@ -76,11 +78,13 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
         kind, suffix = _split(one)
         if kind and (kind not in TABLES or kind == "vertices"):
             way_out = suggestion(kind, (kind for kind in TABLES if kind != "vertices"))
-            raise UsageError(f"--save {shown(one)}: there is no table {shown(kind)!r}{way_out}; expected KIND.SUFFIX")
+            raise UsageError(
+                f"--save {escape_text(one)}: there is no table {escape_text(kind)!r}{way_out}; expected KIND.SUFFIX"
+            )
         try:
             format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "page", "picture"])
         except UsageError as error:
-            raise UsageError(f"--save {shown(one)}: {str(error).partition(': ')[2]}") from None
+            raise UsageError(f"--save {escape_text(one)}: {str(error).partition(': ')[2]}") from None
         found[one] = None
     return tuple(found)
 

@@ -22,8 +22,8 @@ from ..mesh.polygons import from_file
 from ..output.atomic import Outputs
 from ..output.write import write_into
 from ..report.build import pieces
-from ..support.memory import give_back, ran_out
-from ..support.words import shown
+from ..support.memory import is_out_of_memory, trim_heap
+from ..support.words import escape_text
 from .locations import hash_of, is_url, length_of, read_url
 from .model import Item, Limits, Row, Settings, Written
 from .outcome import explained
@@ -37,7 +37,7 @@ _WORST = ("fail", "pass", "not_applicable")
 def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
     """Analyse one mesh and write its outputs whole or not at all: its row, and whether memory ran out."""
     start = time.perf_counter()
-    give_back()  # of the mesh before
+    trim_heap()  # of the mesh before
     _forget_peak()
     spent = False
     try:
@@ -47,7 +47,7 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
         row.outputs = _written(item)
     except Exception as error:
         # The error itself is not kept: its traceback refers to the analysis.
-        spent = ran_out(error)
+        spent = is_out_of_memory(error)
         row = explained(item.path, error, limits)
         row.sha256 = _hash(item)
     row.seconds, row.memory = round(time.perf_counter() - start, 4), _peak()
@@ -108,8 +108,8 @@ def _written(item: Item) -> list[Written]:
     for _, path in item.outputs:
         length, digest = length_of(path), hash_of(path)
         if length is None or digest is None:
-            raise OutputError(f"{shown(path)}: was written and is gone")
-        found.append(Written(shown(path), length, digest))
+            raise OutputError(f"{escape_text(path)}: was written and is gone")
+        found.append(Written(escape_text(path), length, digest))
     return found
 
 
@@ -117,7 +117,7 @@ def _make(folder: str) -> None:
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
-        raise OutputError(f"{shown(folder)}: cannot be made: {error.strerror or error}") from error
+        raise OutputError(f"{escape_text(folder)}: cannot be made: {error.strerror or error}") from error
 
 
 def _row(item: Item, analysis: Result) -> Row:

@@ -12,7 +12,7 @@ from ..output.atomic import Outputs
 from ..report.model import Topology
 from ..support.forks import require_threads
 from ..support.memory import require_polars
-from ..support.words import in_cell
+from ..support.words import escape_cell
 from .model import CSV, PARQUET, Row
 
 
@@ -29,7 +29,7 @@ def write_summary(folder: str, rows: Sequence[Row]) -> None:
     with Outputs(paths, force=True) as outputs:
         with outputs.open(paths[0]) as stream:
             words = [name for name, dtype in table.schema.items() if dtype == pl.String]
-            safe = [pl.Series(name, [word and in_cell(word) for word in table[name]], pl.String) for name in words]
+            safe = [pl.Series(name, [word and escape_cell(word) for word in table[name]], pl.String) for name in words]
             table.with_columns(safe).write_csv(cast("IO[bytes]", stream))
         with outputs.open(paths[1]) as stream:
             table.write_parquet(cast("IO[bytes]", stream))

@@ -29,7 +29,7 @@ def main() -> None:
 
     from ..curvatures.catalogue import load_passes
     from ..loading.libraries import import_libraries, start_polars
-    from ..support.memory import bound
+    from ..support.memory import limit_address_space
     from .run import run
 
     # Here, so that the first mesh is not charged with it.
@@ -37,7 +37,7 @@ def main() -> None:
     import_libraries()
     if limits.memory is not None:
         start_polars()
-        bound(limits.memory)
+        limit_address_space(limits.memory)
     _answer(answers, Ready(__version__))
     while True:
         task = todo.get()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh.counts import census, classify
+from ..mesh.counts import classify, count_groups
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
@@ -21,7 +21,7 @@ from .base import Outcome, check, exclude_null
 )
 def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K_minus: Column) -> Outcome:
     """ΣK⁺ + ΣK⁻ ≥ 2π(4 − χ) for each closed component, one-sided or not (Chern–Lashof, Kuiper); if equal, tight."""
-    counts = census(surface, groups)
+    counts = count_groups(surface, groups)
     value = groups.vertices.sum(K_plus) + groups.vertices.sum(K_minus)
     # 2 + 2g if orientable, 2 + the number of crosscaps if not
     bound = np.asarray(2 * np.pi * (4 * classify(surface, groups).components - counts.euler_characteristic), np.float64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh.counts import census
+from ..mesh.counts import count_groups
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
@@ -21,7 +21,7 @@ from .base import Outcome, check, exclude_null, rounding
 )
 def gauss_bonnet(surface: Surface, groups: Groups, K: Column, kappa_g: Column) -> Outcome:
     """ΣK + Σκ_g = 2πχ for any triangle complex; certifies the curvatures and χ, not that the mesh is sound."""
-    counts = census(surface, groups)
+    counts = count_groups(surface, groups)
     value = groups.vertices.sum(K) + groups.vertices.sum(kappa_g)
     expected = np.asarray(2 * np.pi * counts.euler_characteristic, np.float64)
     tolerance = np.asarray(16 * EPSILON * (counts.faces + counts.vertices), np.float64)
@@ -38,7 +38,7 @@ def gauss_bonnet(surface: Surface, groups: Groups, K: Column, kappa_g: Column) -
 )
 def gauss_bonnet_combinatorial(surface: Surface, groups: Groups, K_comb: Column) -> Outcome:
     """ΣK_comb = 2πχ: Gauss–Bonnet with every triangle equilateral; counts the mesh against itself."""
-    counts = census(surface, groups)
+    counts = count_groups(surface, groups)
     terms = groups.vertices.sum(np.abs(K_comb))
     expected = np.asarray(2 * np.pi * counts.euler_characteristic, np.float64)
     tolerance = rounding(surface, terms + np.abs(expected))

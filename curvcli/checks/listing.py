@@ -10,7 +10,7 @@ from ..support.words import suggestion
 from .base import Check, rules
 
 
-def summarised(checks: list[Check], scope: str) -> list[Check]:
+def summarise_checks(checks: list[Check], scope: str) -> list[Check]:
     """The checks of very many groups: those that fail, and one line for the rest."""
     failed = [check for check in checks if check.status == "fail"]
     if failed or not checks:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.counts import census, classify
+from ..mesh.counts import classify, count_groups
 from ..mesh.enclosed import volumes
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
@@ -51,7 +51,7 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
         np.copyto(residual[block], size, where=inside[block])
         area = columns["star_area"][block]
         np.divide(size, area, out=residual_density[block], where=inside[block] & (area > 0))
-    orientable = census(surface, groups).orientable
+    orientable = count_groups(surface, groups).orientable
     return {
         "H": np.where(orientable, H, np.nan),
         "residual_max": np.where(orientable, vertices.max(residual), np.nan),
@@ -67,7 +67,7 @@ def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dic
     For a convex body it is the volume at distance t, also where the body is wound inside out. NaN where the volume is.
     Convex: closed, connected, χ = 2 and ΣK⁻ ≤ 16 ε (F + V).
     """
-    counts = census(surface, groups)
+    counts = count_groups(surface, groups)
     integrals = [
         volumes(surface, groups),
         groups.faces.sum(columns["face_area"]),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh.counts import census
+from ..mesh.counts import count_groups
 from ..mesh.enclosed import volumes
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
@@ -55,7 +55,7 @@ def area_gradient(
 )
 def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Column, star_extent: Column) -> Outcome:
     """Σ p·A_p = 3 vol on closed orientable surfaces."""
-    counts = census(surface, groups)
+    counts = count_groups(surface, groups)
     value = groups.vertices.sum(dot_offset(surface, A_vec))
     expected = 3 * volumes(surface, groups)
     # A needle's area vector, computed to twice the digits, still has an error of ε² times a product of its edges.

@@ -22,7 +22,7 @@ from ..errors import (
     worst,
 )
 from ..loading.limits import parse_weld
-from ..support.memory import give_back, ran_out
+from ..support.memory import is_out_of_memory, trim_heap
 from . import options
 from .bounds import bounded
 from .configured import configuration
@@ -161,7 +161,7 @@ class Run:
                 except (MemoryError, OSError):
                     raise
                 except Exception as error:
-                    if len(self.meshes) == 1 or ran_out(error):
+                    if len(self.meshes) == 1 or is_out_of_memory(error):
                         raise
                     say(f"{mesh}: {internal(error)}")
                     codes.append(exit_code(error))
@@ -173,7 +173,7 @@ class Run:
 
     def done(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> tuple[Any, int]:
         """The report of one mesh, if it is wanted later, and the exit code; nothing keeps the analysis."""
-        give_back()  # of the mesh before
+        trim_heap()  # of the mesh before
         analysis = self.one(mesh, paths, tables, outputs)
         return self.tell(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
 

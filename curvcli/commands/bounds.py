@@ -13,7 +13,7 @@ import click
 
 from ..errors import INTERNAL, InputError, UsageError
 from ..loading.libraries import import_libraries, start_polars
-from ..support.memory import bound
+from ..support.memory import limit_address_space
 from ..support.sinks import wait_for
 from . import options, signals
 from .talk import say
@@ -59,7 +59,7 @@ def guard(timeout: float | None, max_memory: int | None) -> None:
         # Before the bound, which does not count them.
         import_libraries()
         start_polars()
-        bound(max_memory << 20)
+        limit_address_space(max_memory << 20)
 
 
 def _watch(child: int, ends: int, timeout: float | None, max_memory: int | None) -> NoReturn:

@@ -11,7 +11,7 @@ import click
 
 from ..errors import CurvcliError, LackingError, exit_code, exit_code_of_one, stops_all, worst
 from ..loading.limits import parse_weld
-from ..support.memory import give_back, ran_out
+from ..support.memory import is_out_of_memory, trim_heap
 from . import options
 from .bounds import bounded
 from .configured import configuration
@@ -136,7 +136,7 @@ class Run:
         """What came of one mesh; one that cannot be checked is told on stderr at once."""
         from ..report.check.model import failed_input
 
-        give_back()  # of the mesh before
+        trim_heap()  # of the mesh before
         try:
             return self.judged(mesh)
         except CurvcliError as error:
@@ -148,7 +148,7 @@ class Run:
         except (MemoryError, OSError):
             raise
         except Exception as error:
-            if len(self.meshes) == 1 or ran_out(error):
+            if len(self.meshes) == 1 or is_out_of_memory(error):
                 raise
             say(f"{mesh}: {internal(error)}")
             return failed_input(mesh, internal(error), exit_code(error))

@@ -24,7 +24,7 @@ from ..errors import (
     UsageError,
     exit_code,
 )
-from ..support.memory import NUMPY, is_bounded, ran_out, require
+from ..support.memory import NUMPY, is_bounded, is_out_of_memory, require
 from .allocation import keep_memory
 from .config import META, configure
 from .configured import blamed
@@ -170,7 +170,7 @@ def interrupted(ending: Ending) -> int:
 
 def explain(error: BaseException) -> int:
     """Say in one line why the program ends; the exit code."""
-    if is_bounded() and ran_out(error):
+    if is_bounded() and is_out_of_memory(error):
         error = InputError("needs more memory than --max-memory allows", hint="a larger limit takes it")
     match error:
         case click.exceptions.Exit():
@@ -193,7 +193,7 @@ def explain(error: BaseException) -> int:
         case KeyboardInterrupt() | click.Abort():
             say("interrupted")
             return INTERRUPTED
-    if ran_out(error):
+    if is_out_of_memory(error):
         say("out of memory; a machine with more memory, or a smaller mesh, is needed")
     else:
         say(internal(error))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ..support.words import shown
+from ..support.words import escape_text
 from . import options
 
 
@@ -24,7 +24,7 @@ def command(name: str | None, as_json: bool, markdown: bool) -> None:
     if markdown:
         from ..report.quantities import page
 
-        click.echo("\n".join(map(shown, page().split("\n"))), nl=False)
+        click.echo("\n".join(map(escape_text, page().split("\n"))), nl=False)
     elif as_json:
         from ..report.model import encode
         from ..report.quantities import as_data

@@ -26,7 +26,7 @@ from ..report.maps import MapReport
 from ..report.model import Report, encode
 from ..report.model import schema as report_schema
 from ..report.quantities import Facts
-from ..support.words import in_json
+from ..support.words import escape_json
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 FOLDER = Path(__file__).parent / "data" / "schemas"
@@ -82,7 +82,7 @@ def write() -> None:
 def say(name: str) -> None:
     """Print one on stdout."""
     text = json.dumps(json.loads(SCHEMAS[name].printed()), indent=2, ensure_ascii=False)
-    click.echo(in_json(text.encode("utf-8")).decode("utf-8"))
+    click.echo(escape_json(text.encode("utf-8")).decode("utf-8"))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import os
 import sys
 
 from ..errors import OutputError
-from ..support.sinks import Sink, Talk, whole
+from ..support.sinks import Sink, StderrSink, text_sink
 
 
 def complete() -> None:
@@ -25,7 +25,7 @@ def complete() -> None:
             setattr(sys, name, open(number, "w" if number else "r", closefd=False))  # noqa: SIM115
         stream = getattr(sys, name)
         if number and os.name == "posix":
-            setattr(sys, name, whole(stream, Talk if number == 2 else Sink))
+            setattr(sys, name, text_sink(stream, StderrSink if number == 2 else Sink))
         elif number and isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 

@@ -9,7 +9,7 @@ import traceback
 import click
 
 from ..errors import defect
-from ..support.words import shown
+from ..support.words import escape_text
 
 # Letters of either end of a message that quotes something very long.
 _SHOWN = 1000
@@ -24,7 +24,7 @@ def one_line(text: str) -> str:
     """Text on one line; of a very long one the beginning and the end."""
     if len(text) > 2 * _SHOWN:
         text = f"{text[:_SHOWN]} … {text[-_SHOWN:]}"
-    return shown(" ".join(text.split("\n")))
+    return escape_text(" ".join(text.split("\n")))
 
 
 def internal(error: BaseException) -> str:
@@ -33,5 +33,5 @@ def internal(error: BaseException) -> str:
     typed = [word for word in sys.argv[1:] if re.fullmatch(r"-[qv]+", word)]
     if "".join(typed).count("v") + sys.argv.count("--verbose") > 1:
         lines = "".join(traceback.format_exception(error)).split("\n")
-        click.echo("\n".join(map(shown, lines)), err=True, nl=False)
+        click.echo("\n".join(map(escape_text, lines)), err=True, nl=False)
     return f"{one_line(defect(error))}; -vv shows the traceback"

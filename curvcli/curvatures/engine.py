@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.neighbourhoods import forget
+from ..mesh.neighbourhoods import clear_cache
 from ..mesh.scale import DEFAULTS, Settings
 from ..mesh.sheets import on_single_fans, sheets
 from ..mesh.surface import Surface
@@ -73,9 +73,9 @@ def prepare(passes: Provider, surface: Surface, names: Iterable[str], area: str 
     """Work out the topology, and let go of the edges unless one of the named quantities comes by way of edges."""
     order = schedule(passes, (name.partition(AT_SCALE)[0] for name in names), area)
     if any(quantity.on == "edge" for one in order for quantity in one.provides):
-        surface.work_out_topology()
+        surface.compute_topology()
     else:
-        surface.let_go_of_edges()
+        surface.release_edges()
 
 
 def evaluate(
@@ -108,7 +108,7 @@ def evaluate(
             same = {k: column for k, column in have.items() if AT_SCALE not in k and not passes.depends_on_scale(k)}
             found = _evaluate(passes, surface, here, area, replace(settings, scales=(scale,)), same)
             have |= {name + suffix: found[name] for name in here}
-    forget(surface)
+    clear_cache(surface)
     return have
 
 
@@ -179,7 +179,7 @@ def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array
     return columns
 
 
-def presented(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:
+def in_file_unit(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:
     """A column as a user sees it: in the file's unit of length and the chosen convention for H, codes as words.
 
     Vectors come out as (n, 3).

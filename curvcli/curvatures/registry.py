@@ -18,7 +18,7 @@ from ..errors import UsageError
 from ..loading.load import as_surface
 from ..mesh.scale import PARAMETERS
 from ..support.words import suggestion
-from .engine import evaluate, presented
+from .engine import evaluate, in_file_unit
 from .order import TOTALS, ordered
 from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity
 
@@ -52,7 +52,7 @@ class Pass:
         """
         surface = as_surface(surface)
         found = evaluate(self.registry, surface, [quantity.name for quantity in self.provides])
-        shown = {q.name: presented(q, found[q.name], surface) for q in self.provides}
+        shown = {q.name: in_file_unit(q, found[q.name], surface) for q in self.provides}
         return shown[self.provides[0].name] if len(shown) == 1 else shown
 
 

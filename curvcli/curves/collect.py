@@ -12,7 +12,7 @@ from ..mesh.file import MeshFile
 from ..mesh.polygons import from_file
 from ..mesh.surface import Surface
 from ..mesh.welding import weld_exact
-from ..support.words import agree
+from ..support.words import pluralize
 from .boundary import Boundary, boundary_loops
 from .joined import Joined, join
 from .polygon import Curves, Rows
@@ -134,4 +134,6 @@ def _all(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: 
         "the binormal has no direction there: move the vertex by any little to give it one",
     )
     message = "[curve|curves] too large together for [its|their] writhe, a double sum over at most"
-    yield Notice("writhe_refused", refused, f"{agree(refused, message)} {limit} edges", "--max-writhe sets the limit")
+    yield Notice(
+        "writhe_refused", refused, f"{pluralize(refused, message)} {limit} edges", "--max-writhe sets the limit"
+    )

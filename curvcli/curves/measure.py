@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import Notice
 from ..mesh.file import Labels
-from ..support.words import agree
+from ..support.words import pluralize
 from .collect import CurveSet, curve_notices
 from .darboux import Darboux
 from .densities import curvature, signed_curvature, torsion_density
@@ -87,11 +87,11 @@ class CurveMeasures:
         yield Notice(
             "linking_undefined",
             len(touching),
-            agree(len(touching), "[pair|pairs] of closed curves that touch, or so nearly that rounding decides"),
+            pluralize(len(touching), "[pair|pairs] of closed curves that touch, or so nearly that rounding decides"),
             "a linking number jumps where one curve passes through the other",
             tuple(f"{found.a[k]}-{found.b[k]}" for k in touching[:5].tolist()),
         )
-        refused = agree(found.refused, "[pair|pairs] of closed curves too large for [its|their] linking number")
+        refused = pluralize(found.refused, "[pair|pairs] of closed curves too large for [its|their] linking number")
         yield Notice("linking_refused", found.refused, refused, "--max-writhe sets the limit of these double sums too")
 
     def _boundary_first(self, values: Floats | None, like: int) -> Floats:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, LackingError, Notice
-from ..mesh.counts import census
+from ..mesh.counts import count_groups
 from ..mesh.file import Labels
 from ..mesh.groups import Groups, by_label
 from ..mesh.surface import CutFrom, Surface
@@ -147,7 +147,7 @@ def _read_line_by_line(text: str, path: str) -> NDArray[Any]:
         raise InputError(f"{text[:40]!r}, expected one whole number", path=path, place=f"line {place}") from None
 
 
-def cut_apart(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
+def cut_along_regions(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
     """The surface with every region on vertices of its own, oriented as the whole is, and its regions as groups."""
     inside = regions.face >= 0
     faces, label = surface.faces[inside], regions.face[inside]
@@ -166,12 +166,12 @@ def cut_apart(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
 _SLIPPED = "meant, or a label has slipped; --table faces=PATH has the region of every face"
 
 
-def findings(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
+def region_notices(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
     """What often is a label that has slipped: regions in pieces, pinched or of a single face, faces without one."""
     pieces = np.zeros(groups.count, np.int64)
     first = np.unique(cut.components.face, return_index=True)[1]
     np.add.at(pieces, groups.face[first], 1)
-    pinched = census(cut, groups).nonmanifold_vertices > 0
+    pinched = count_groups(cut, groups).nonmanifold_vertices > 0
     single = groups.faces.members() == 1
     of_regions = [
         ("regions_in_pieces", pieces > 1, "[region is|regions are] not connected", _SLIPPED),

@@ -40,7 +40,7 @@ def load(
     def surface(file: MeshFile) -> Surface:
         made = from_file(file, orient)
         if importing:
-            made.work_out_topology()  # almost everything needs it, and the import leaves the time
+            made.compute_topology()  # almost everything needs it, and the import leaves the time
         return made
 
     return read_and_make(surface, source, input_format, weld, max_faces, max_bytes, normals, texture)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
 from ..mesh.file import NO_POLYLINES, Labels, MeshFile, Polylines
-from ..support.words import agree, number_of
+from ..support.words import number_of, pluralize
 from .limits import check_faces
 from .obj_lines import ObjLines, split_lines, tidy_lines
 from .obj_normals import corner_normals
@@ -111,7 +111,7 @@ def _statements(
             what = "free-form, point or drawing" if code == "ignored_statements" else "unknown"
             first = lines.place(min(where[0] for where in found.values()))
             total = sum(map(len, found.values()))
-            message = f"{what} {agree(total, '[statement|statements]')}, ignored: {words}"
+            message = f"{what} {pluralize(total, '[statement|statements]')}, ignored: {words}"
             notices.append(Notice(code, total, message, f"the first is in {first}"))
     return {kind: (np.array(where, np.int64), names[kind]) for kind, where in at.items()}
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
 from ..mesh.file import MeshFile
-from ..support.words import agree
+from ..support.words import pluralize
 from .limits import check_faces
 from .pieces import Pieces
 from .ply_header import CORNERS, HEADER_END, TOO_SMALL, Element, Header, parse_header
@@ -40,7 +40,9 @@ def parse_ply(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     if header.unknown:
         message = "[line|lines] of the header that [begins|begin] with an unknown keyword, ignored"
         place = f"the first is line {header.unknown[0]}"
-        notices.append(Notice("unknown_statements", len(header.unknown), agree(len(header.unknown), message), place))
+        notices.append(
+            Notice("unknown_statements", len(header.unknown), pluralize(len(header.unknown), message), place)
+        )
     return _mesh(content, by_name, notices)
 
 
@@ -63,7 +65,7 @@ def _header(pieces: Pieces) -> Header:
 def _read_binary(pieces: Pieces, header: Header, notices: list[Notice]) -> dict[str, Columns]:
     content = {element.name: read_binary_rows(pieces, element) for element in header.elements}
     if rest := pieces.left:
-        message = agree(rest, "[byte|bytes] after the announced elements, ignored")
+        message = pluralize(rest, "[byte|bytes] after the announced elements, ignored")
         notices.append(Notice("trailing_data", rest, message, TOO_SMALL))
     return content
 

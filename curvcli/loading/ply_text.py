@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..support.words import agree, number_of
+from ..support.words import number_of, pluralize
 from .ply_header import CORNERS, TOO_SMALL, Element, Header, Property
 from .ply_rows import Columns, empty_columns
 from .text import (
@@ -78,7 +78,7 @@ def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[n
             content[element.name] = empty_columns(element)
     if rest := body[starts[line] :].strip():
         count = sum(1 for text in rest.split(b"\n") if text.strip())
-        message = agree(count, "[line|lines] after the announced elements, ignored")
+        message = pluralize(count, "[line|lines] after the announced elements, ignored")
         notices.append(Notice("trailing_data", count, message, TOO_SMALL))
     return content
 
@@ -153,7 +153,7 @@ def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
         _refuse_wrong_lengths(rows, read, extra)
         rest = f"of element `{rows.element.name}` with more values than announced, which are ignored"
         hint = f"the header lacks a property, or the file is damaged; the first is {rows.place(int(extra[0]))}"
-        message = f"{agree(len(extra), '[row|rows]')} {rest}"
+        message = f"{pluralize(len(extra), '[row|rows]')} {rest}"
         notices.append(Notice("extra_values", len(extra), message, hint, tuple(extra[:5].tolist())))
     return read
 

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO, Generic, NamedTuple, TypeVar
 from ..errors import InputError, UsageError
 from ..mesh.file import MeshFile
 from ..support.memory import require_polars
-from ..support.words import shown
+from ..support.words import escape_text
 from .content import DamagedError, inflate, open_regular, read_limited
 from .elsewhere import FORMATS
 from .limits import check_faces, parse_weld
@@ -75,8 +75,8 @@ def read_and_make(
         kind = input_format and input_format.lower()
         return _read(make, source, path, kind, weld, max_faces, max_bytes, Wanted(normals == "file", texture))
     except InputError as error:
-        place, hint = error.place and shown(error.place), error.hint and shown(error.hint)
-        raise InputError(shown(error.problem), path=shown(path), place=place, hint=hint) from None
+        place, hint = error.place and escape_text(error.place), error.hint and escape_text(error.hint)
+        raise InputError(escape_text(error.problem), path=escape_text(path), place=place, hint=hint) from None
 
 
 def _read(
@@ -124,7 +124,7 @@ def _read(
             check_faces(mesh.polygons, max_faces)
             merged = ("exact" if kind == "stl" else "none") if weld == "auto" else str(weld)
             notes = (*notices, *mesh.notices)
-            return make(replace(mesh, path=shown(path), sha256=hashed.sha256(), weld=merged, notices=notes))
+            return make(replace(mesh, path=escape_text(path), sha256=hashed.sha256(), weld=merged, notices=notes))
 
         made = pool.submit(content)  # made while trimesh is imported
         wait(importing)

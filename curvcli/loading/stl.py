@@ -11,7 +11,7 @@ from ..errors import InputError, Notice
 from ..mesh.file import MeshFile
 from ..mesh.welding import weld_exact
 from ..support.blocks import slices
-from ..support.words import agree, number_of
+from ..support.words import number_of, pluralize
 from .limits import check_faces
 from .pieces import Pieces
 from .stl_tokens import read_ascii_tokens
@@ -91,7 +91,7 @@ def _read_binary(pieces: Pieces, max_faces: int | None) -> tuple[NDArray[np.floa
     if missing > 0:
         raise InputError(
             f"{number_of(count, 'facet')} announced, room for {(size - _HEADER) // 50} found: "
-            f"{number_of(missing, 'byte')} {agree(missing, '[is|are]')} missing",
+            f"{number_of(missing, 'byte')} {pluralize(missing, '[is|are]')} missing",
             place="byte 80",
             hint=None if b"\0" in bytes(header) + pieces.whole() else _TEXT,
         )
@@ -101,7 +101,7 @@ def _read_binary(pieces: Pieces, max_faces: int | None) -> tuple[NDArray[np.floa
         facets = np.frombuffer(pieces.take(_FACET.itemsize * (block.stop - block.start)), _FACET)
         for k in range(3):
             xyz[k].reshape(-1, 3)[block] = facets["corners"][:, :, k]
-    message = agree(-missing, "[byte|bytes] after the announced facets, ignored")
+    message = pluralize(-missing, "[byte|bytes] after the announced facets, ignored")
     trailing = Notice("trailing_data", -missing, message, "if the count at byte 80 is too small, facets are missing")
     return xyz, (trailing,) if missing < 0 else ()
 
@@ -183,7 +183,7 @@ def _read_lines(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64]
     known = np.frombuffer(b"fove*s" + bytes([NEWLINE | 32]), np.uint8)
     unknown = np.flatnonzero(~np.isin(first, known))
     if len(unknown):
-        message = agree(len(unknown), "[statement|statements] that STL does not know, ignored")
+        message = pluralize(len(unknown), "[statement|statements] that STL does not know, ignored")
         notices.append(Notice("unknown_statements", len(unknown), message, f"the first is in line {unknown[0] + 1}"))
     return np.ascontiguousarray(records.flat().reshape(-1, 3).T), tuple(notices)
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..support.words import agree
+from ..support.words import pluralize
 from .limits import check_faces
 from .text import BLANK, NEWLINE, read_tokens, separates
 
@@ -155,6 +155,6 @@ def _between(tokens: _Tokens, begin: Places, end: Places) -> list[Notice]:
         hint = "if it was cut off, faces are missing"
         notices.append(Notice("missing_endsolid", 1, "text that ends without `endsolid`", hint))
     if unknown:
-        message = agree(unknown, "[statement|statements] that STL does not know, ignored")
+        message = pluralize(unknown, "[statement|statements] that STL does not know, ignored")
         notices.append(Notice("unknown_statements", unknown, message))
     return notices

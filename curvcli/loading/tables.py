@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..support.forks import require_threads
 from ..support.memory import require_polars
-from ..support.words import from_cell
+from ..support.words import unescape_cell
 from .content import free_inflation, open_regular, read_limited, too_large
 from .parquet import check_parquet
 
@@ -67,7 +67,7 @@ def _columns(data: bytes, suffix: str, max_bytes: int | None) -> dict[str, NDArr
             if (size := int(words.str.len_bytes().sum())) > limit:
                 raise too_large(f"column `{series.name}` of {size} bytes", limit)
             if suffix != ".parquet" and words.str.starts_with("'").any():
-                words = pl.Series([None if word is None else from_cell(word) for word in words], dtype=pl.String)
+                words = pl.Series([None if word is None else unescape_cell(word) for word in words], dtype=pl.String)
             found_columns[series.name] = words.to_numpy()
     return found_columns
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
-from ..support.blocks import LONG, each, for_each, slices
+from ..support.blocks import LONG, for_each, map_pieces, slices
 from .topology import Index
 
 _Found = TypeVar("_Found", bound=NDArray[Any])
@@ -98,7 +98,7 @@ def as_triangles(faces: ArrayLike, vertices: int) -> Index:
             triangles[block] = part
         return exist
 
-    if not all(each(slices(len(given), LONG), take_over)):
+    if not all(map_pieces(slices(len(given), LONG), take_over)):
         face, corner = (int(i) for i in np.argwhere((given < 0) | (given >= vertices))[0])
         raise InputError(
             f"corner {given[face, corner]} does not exist, expected a vertex index from 0 to {vertices - 1}",
@@ -115,4 +115,4 @@ def with_repeated_corner(triangles: Index) -> NDArray[np.intp]:
         found: NDArray[np.intp] = np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
         return found
 
-    return np.concatenate(list(each(slices(len(triangles), LONG), find)))
+    return np.concatenate(list(map_pieces(slices(len(triangles), LONG), find)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .orientation import ways
+from .orientation import edge_directions
 from .surface import Surface
 from .topology import Index, ends_of, label_graph, neighbouring_corners, previous_corner
 from .triangles import EPSILON, cross, dot
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-def taken_apart(surface: Surface) -> Surface:
+def split_bodies(surface: Surface) -> Surface:
     """The surface with vertices of its own for each body, faces in the same order; itself without crowded edges.
 
     At an edge with more than two faces, two faces of one patch that run opposite ways stay together. Of the others,
@@ -27,7 +27,7 @@ def taken_apart(surface: Surface) -> Surface:
     edges = surface.edges
     half_edges = edges.half_edges(crowded)
     edge = np.repeat(np.arange(len(crowded)), edges.valence[crowded])
-    way = ways(surface.faces, half_edges, surface.orientation).astype(np.int64)
+    way = edge_directions(surface.faces, half_edges, surface.orientation).astype(np.int64)
     mate = _of_one_patch(surface, half_edges, edge, way)
     left = np.flatnonzero(mate < 0)
     balanced = np.bincount(edge[left], way[left], minlength=len(crowded)) == 0

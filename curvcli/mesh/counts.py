@@ -20,7 +20,7 @@ Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Census:
+class GroupCounts:
     """Counts and yes-or-no answers per group."""
 
     vertices: Counts
@@ -38,7 +38,7 @@ class Census:
 
 
 @cached
-def census(surface: Surface, groups: Groups) -> Census:
+def count_groups(surface: Surface, groups: Groups) -> GroupCounts:
     """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
     vertices = groups.vertices.count_true(surface.referenced)
     # The whole is that of the surface asked about, whatever surface the groups come from.
@@ -58,7 +58,7 @@ def census(surface: Surface, groups: Groups) -> Census:
         orientable = np.ones(groups.count, bool)
     else:
         orientable = ~groups.faces.any(~surface.orientation.orientable[surface.orientation.patch])
-    return Census(
+    return GroupCounts(
         vertices,
         edges,
         faces,
@@ -103,7 +103,7 @@ class Classification:
 def classify(surface: Surface, groups: Groups) -> Classification:
     """Classify the components that are manifolds: χ = 2 − 2g − loops if orientable, 2 − crosscaps − loops if not."""
     pieces = surface.components
-    counts = census(surface, pieces)
+    counts = count_groups(surface, pieces)
     loops = np.zeros(pieces.count)
     if len(surface.boundary_half_edges):
         number, loop_of = surface.boundary_loop_of

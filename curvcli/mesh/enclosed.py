@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .counts import census
+from .counts import count_groups
 from .groups import Groups
 from .surface import Surface
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 def volumes(surface: Surface, groups: Groups) -> Floats:
     """(G,) enclosed volume; NaN unless closed, orientable and the oriented faces cancel at every edge."""
-    counts = census(surface, groups)
+    counts = count_groups(surface, groups)
     valid = counts.closed & counts.orientable & counts.balanced
     if not valid.any():
         return np.full(groups.count, np.nan)

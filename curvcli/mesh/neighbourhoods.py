@@ -102,7 +102,7 @@ def _too_far(surface: Surface, count: str) -> InputError:
     )
 
 
-def forget(surface: Surface) -> None:
+def clear_cache(surface: Surface) -> None:
     """Let go of the neighbourhoods that are kept of a surface."""
     _KEPT.pop(surface, None)
 

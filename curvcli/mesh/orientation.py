@@ -84,7 +84,7 @@ def orient_stars(faces: Index, edges: Edges) -> Sign:
     return sign.astype(np.int8).reshape(-1, 3)
 
 
-def ways(faces: Index, half_edges: Index, orientation: Orientation) -> Sign:
+def edge_directions(faces: Index, half_edges: Index, orientation: Orientation) -> Sign:
     """+1 where the oriented face runs along its half-edge from the lower end to the higher, else -1."""
     tail, head = ends_of(faces, half_edges)
     way = np.where(tail < head, 1, -1).astype(np.int8)
@@ -117,7 +117,7 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
         edge, half_edges = np.arange(len(edges)), edges.order
     if not len(edge):
         return Uncancelled(edges.a[edge], edges.b[edge], np.zeros(0, np.int32))
-    valence, way = edges.valence[edge], ways(faces, half_edges, orientation)
+    valence, way = edges.valence[edge], edge_directions(faces, half_edges, orientation)
     surplus = np.add.reduceat(way, np.cumsum(valence) - valence, dtype=np.int32)
     left = np.flatnonzero(surplus)
     return Uncancelled(edges.a[edge[left]], edges.b[edge[left]], surplus[left])
@@ -126,7 +126,7 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
 def uncancelled_rim(faces: Index, rim: Index, orientation: Orientation) -> Uncancelled:
     """The same where any two faces of an edge cancel. rim: half-edges of the edges with one face."""
     tail, head = ends_of(faces, rim)
-    surplus = ways(faces, rim, orientation).astype(np.int32)
+    surplus = edge_directions(faces, rim, orientation).astype(np.int32)
     return Uncancelled(np.minimum(tail, head), np.maximum(tail, head), surplus)
 
 
@@ -138,7 +138,7 @@ def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask
         half_edges, edge = edges.half_edges(odd), np.repeat(odd, edges.valence[odd])
         key = edge * len(closed) + orientation.patch[half_edges // 3].astype(np.int64)
         key, where, count = np.unique(key, return_inverse=True, return_counts=True)
-        unbalanced = (count != 2) | (np.bincount(where, ways(faces, half_edges, orientation)) != 0)
+        unbalanced = (count != 2) | (np.bincount(where, edge_directions(faces, half_edges, orientation)) != 0)
         closed[(key % len(closed))[unbalanced]] = False
     return closed
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..errors import UsageError
-from ..support.words import agree
+from ..support.words import pluralize
 
 Kind = Literal["rings", "edges", "length"]
 
@@ -43,8 +43,8 @@ class Scale:
     def __str__(self) -> str:
         """For people."""
         number = f"{self.size:g}"
-        rings = agree(self.size, f"{number} [ring|rings]")
-        edges = agree(self.size, f"radius of {number} mean edge [length|lengths]")
+        rings = pluralize(self.size, f"{number} [ring|rings]")
+        edges = pluralize(self.size, f"radius of {number} mean edge [length|lengths]")
         return {"rings": rings, "edges": edges, "length": f"radius of {number}"}[self.kind]
 
 
@@ -81,7 +81,7 @@ def parse_scales(
     return tuple(dict.fromkeys(found))
 
 
-def in_words(names: str) -> str:
+def describe_scales(names: str) -> str:
     """A comma list of the names of scales, for people."""
     given = options_of(names)
     return ", ".join(str(scale) for scale in parse_scales(given["rings"], given["radius"]))

@@ -75,7 +75,7 @@ def exact_effect(surface: Surface) -> Effect:
     return effect(surface, first[number])
 
 
-def welding(surface: Surface) -> str:
+def describe_exact_welding(surface: Surface) -> str:
     """What `--weld exact` would do to the boundary."""
     way_out = "--weld exact merges them"
     if not len(surface.boundary_half_edges):
@@ -89,7 +89,7 @@ def welding(surface: Surface) -> str:
     return _told(f"--weld exact would close {all_of}{counted(found.closed, 'boundary edge')}", found)
 
 
-def closing(surface: Surface, seam: Seam) -> str:
+def describe_closing(surface: Surface, seam: Seam) -> str:
     """What the tolerance of a seam does to the boundary."""
     boundary, closed = len(surface.boundary_half_edges), seam.effect.closed
     part = f"{closed:,} of " if closed < boundary else "all " if boundary > 1 else ""
@@ -102,12 +102,14 @@ def _told(words: str, found: Effect) -> str:
     return f"{words}, and more than two faces would meet at {counted(found.crowded, 'edge')}"
 
 
-def way_to_close(surface: Surface) -> str:
+def describe_best_welding(surface: Surface) -> str:
     """How welding closes boundary edges, with the tolerance or exactly, whichever closes more; empty where neither."""
     seam = near_seam(surface)
     if seam is not None:
-        return closing(surface, seam)
-    return welding(surface) if len(surface.boundary_half_edges) and exact_effect(surface).closed > 0 else ""
+        return describe_closing(surface, seam)
+    return (
+        describe_exact_welding(surface) if len(surface.boundary_half_edges) and exact_effect(surface).closed > 0 else ""
+    )
 
 
 @cached

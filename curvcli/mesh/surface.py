@@ -266,19 +266,19 @@ class Surface(Incidence):
         pieces, face = renumber_by_lowest_member(vertex[self.faces[:, 0]], count)
         return by_label(self, face, pieces, "component")
 
-    def work_out_topology(self) -> None:
+    def compute_topology(self) -> None:
         """Work out what every analysis asks of stars and edges."""
         for known in _OF_EDGES:
             getattr(self, known)
         self.__dict__.pop("stars", None)
 
-    def let_go_of_edges(self) -> None:
+    def release_edges(self) -> None:
         """Work out what every analysis asks of the edges, and give their memory back: 72 bytes per vertex.
 
         They are looked for only where the winding does not cohere. Whatever asks for them later has them sorted again,
         which costs less than the first touch of as much memory by all that does without them.
         """
-        self.work_out_topology()
+        self.compute_topology()
         self.__dict__.pop("edges", None)
 
     @cached_property

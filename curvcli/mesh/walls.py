@@ -68,7 +68,7 @@ def _opposite(surface: Surface) -> Pairs:
     return np.asarray(pairs[np.argsort(pairs[:, 0])], np.int64)
 
 
-def told(surface: Surface) -> str:
+def describe_walls(surface: Surface) -> str:
     """How many pairs of coincident faces face each other, and what they are; empty without."""
     pairs = len(facing_pairs(surface))
     if not pairs:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, Notice
-from ..support.blocks import LONG, each, slices
+from ..support.blocks import LONG, map_pieces, slices
 from .file import MeshFile, Polylines
 
 if TYPE_CHECKING:
@@ -84,10 +84,10 @@ def _lowest_equal(xyz: NDArray[np.floating[Any]]) -> NDArray[np.int32]:
         power = max(4, count.bit_length())
         if len(table) < 1 << power:
             table = np.empty(1 << power, np.int32)
-        slots = list(each(pieces, partial(_slots, xyz, round_, np.uint64(64 - power))))
+        slots = list(map_pieces(pieces, partial(_slots, xyz, round_, np.uint64(64 - power))))
         for piece, slot in zip(reversed(pieces), reversed(slots), strict=True):
             table[slot[::-1].astype(np.intp)] = _indices(piece)[::-1]  # the last assignment wins: the lowest index
-        index = np.concatenate(list(each(zip(pieces, slots, strict=True), partial(_settle, lowest, xyz, table))))
+        index = np.concatenate(list(map_pieces(zip(pieces, slots, strict=True), partial(_settle, lowest, xyz, table))))
         count, pieces = len(index), [index[block] for block in slices(len(index), LONG)]
     # Only a file made for it gets here: sort what is left.
     columns = _bits(xyz, index)

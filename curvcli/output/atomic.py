@@ -15,8 +15,8 @@ from types import TracebackType
 from typing import BinaryIO
 
 from ..errors import OutputError
-from ..support.sinks import Sink, binary
-from ..support.words import shown
+from ..support.sinks import Sink, binary_sink
+from ..support.words import escape_text
 from .destinations import STDOUT, Place, beside, probe, resolve, same_file, stream_number
 
 # What link() says where hard links are unknown or not allowed; everything else is a real failure.
@@ -103,14 +103,14 @@ class Outputs:
         place = resolve(path)
         for other in self._targets.values():
             if same_file(place, other.place):
-                both = shown(path) if path == other.path else f"{shown(other.path)} and {shown(path)}"
+                both = escape_text(path) if path == other.path else f"{escape_text(other.path)} and {escape_text(path)}"
                 raise OutputError(f"{both}: two outputs on one file; give each a name of its own")
         if not place.direct:
             if os.path.lexists(place.final) and not self._force:
-                raise OutputError(f"{shown(path)}: exists already; --force overwrites it")
+                raise OutputError(f"{escape_text(path)}: exists already; --force overwrites it")
             folder = os.path.dirname(place.final)
             if not os.path.isdir(folder):
-                raise OutputError(f"{shown(path)}: there is no folder {shown(folder)}; make it first")
+                raise OutputError(f"{escape_text(path)}: there is no folder {escape_text(folder)}; make it first")
             probe(folder)
         self._targets[path] = _Target(path, place)
 
@@ -138,13 +138,15 @@ class Outputs:
             # link() fails where rename() would silently replace what another program wrote meanwhile.
             os.link(temporary, target.place.final)
         except FileExistsError:
-            raise OutputError(f"{shown(target.path)}: appeared while it was computed; --force overwrites it") from None
+            raise OutputError(
+                f"{escape_text(target.path)}: appeared while it was computed; --force overwrites it"
+            ) from None
         except OSError as error:
             if error.errno not in _NO_HARD_LINKS:
                 raise
             if os.path.lexists(target.place.final):
                 raise OutputError(
-                    f"{shown(target.path)}: appeared while it was computed; --force overwrites it"
+                    f"{escape_text(target.path)}: appeared while it was computed; --force overwrites it"
                 ) from None
             os.replace(temporary, target.place.final)
         else:
@@ -158,13 +160,15 @@ def _explained(path: str) -> Iterator[None]:
         yield
     except OSError as error:
         reason = error.strerror or str(error)
-        raise OutputError(f"{'stdout' if path == STDOUT else shown(path)}: cannot be written: {reason}") from error
+        raise OutputError(
+            f"{'stdout' if path == STDOUT else escape_text(path)}: cannot be written: {reason}"
+        ) from error
 
 
 def _write_stdout() -> Iterator[BinaryIO]:
     if sys.stdout is None:
         raise OutputError("stdout: is closed")
-    stream = binary(sys.stdout)
+    stream = binary_sink(sys.stdout)
     yield stream
     # Here, not at the end of the program, where a full disk could no longer be told.
     stream.flush()
@@ -176,7 +180,7 @@ def _write_directly(target: _Target) -> Iterator[BinaryIO]:
     flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
     descriptor = os.open(target.place.final, flags, 0o666) if number is None else os.dup(number)
     try:
-        with io.BufferedWriter(Sink(descriptor, shown(target.path))) as stream:
+        with io.BufferedWriter(Sink(descriptor, escape_text(target.path))) as stream:
             yield stream
     finally:
         os.close(descriptor)

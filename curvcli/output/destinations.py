@@ -10,7 +10,7 @@ import unicodedata
 from dataclasses import dataclass
 
 from ..errors import OutputError
-from ..support.words import shown
+from ..support.words import escape_text
 
 STDOUT = "-"
 _STREAM_NAMES = {"/dev/stdout": 1, "/dev/stderr": 2}
@@ -38,10 +38,10 @@ def resolve(path: str) -> Place:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
         if path.endswith(("/", os.sep)):
-            raise OutputError(f"{shown(path)}: names a folder; give a file name") from None
+            raise OutputError(f"{escape_text(path)}: names a folder; give a file name") from None
         return Place(final, False)
     if stat.S_ISDIR(mode):
-        raise OutputError(f"{shown(path)}: is a folder; give a file name in it")
+        raise OutputError(f"{escape_text(path)}: is a folder; give a file name in it")
     # A device or FIFO by the name given: what a link to /dev/stdout leads to is often no name at all.
     return Place(final, False) if stat.S_ISREG(mode) else Place(os.path.abspath(path), True)
 

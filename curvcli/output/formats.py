@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..errors import UsageError
-from ..support.words import shown, suggestion
+from ..support.words import escape_text, suggestion
 
 Kind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
 
@@ -61,7 +61,7 @@ def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | N
     suffix = "." + given.lower().lstrip(".")
     if suffix in promised:
         return FORMATS[suffix]
-    where = f"--format {name}" if name is not None else shown(path)
+    where = f"--format {name}" if name is not None else escape_text(path)
     problem = f"unknown format {given!r}" if given else "a name without a suffix"
     known = promised if name is None else [one.removeprefix(".") for one in promised]
     written = suffix if name is None else given

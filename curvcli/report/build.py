@@ -14,7 +14,7 @@ from .._version import __version__
 from ..analysis.configuration import configured
 from ..checks.special import competing_normals, constant_mean_curvature, steiner
 from ..curvatures.registry import passes
-from ..mesh.counts import census, classify, duplicate_faces, duplicate_vertices
+from ..mesh.counts import classify, count_groups, duplicate_faces, duplicate_vertices
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..support.arrays import or_none
@@ -153,7 +153,7 @@ def _counts(analysis: Result, groups: Groups) -> dict[str, list[Any]]:
         key: [None if math.isnan(value) else round(value) for value in getattr(kinds, key)]
         for key in ("boundary_loops", "genus", "crosscaps")
     }
-    counted = {key: column.tolist() for key, column in vars(census(surface, groups)).items()}
+    counted = {key: column.tolist() for key, column in vars(count_groups(surface, groups)).items()}
     counted |= {"components": kinds.components.tolist()} | classified | _defects(analysis, groups)
     return {key: counted[key] for key in Topology.__struct_fields__}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import LackingError
-from ..support.words import in_json, shown, suggestion
+from ..support.words import escape_json, escape_text, suggestion
 from .model import Piece, one_line
 from .quantities import public, smallest_preset
 
@@ -27,7 +27,7 @@ def look_up(report: dict[str, Any], path: str) -> str:
             raise LackingError(f"--get {path}: {_why_not(report, value, walked, key)}")
         value = members[key]
         walked = f"{walked}.{key}" if walked else key
-    return shown(value) if isinstance(value, str) else in_json(one_line(value)).decode()
+    return escape_text(value) if isinstance(value, str) else escape_json(one_line(value)).decode()
 
 
 def _members(value: Any) -> dict[str, Any]:

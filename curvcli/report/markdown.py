@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from ..analysis.configuration import sentence
 from ..checks.base import rules
-from ..support.words import shown
+from ..support.words import escape_text
 from .model import Report
 from .phrases import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
 from .verdict import proof
@@ -104,26 +104,26 @@ def _text(text: str) -> str:
 
     What stands between backticks is code.
     """
-    parts = shown(text).split("`")
+    parts = escape_text(text).split("`")
     if len(parts) % 2 == 0:
         return _plain(text)
     return "".join(_code(part) if k % 2 else _plain(part) for k, part in enumerate(parts))
 
 
 def _plain(text: str) -> str:
-    escaped = re.sub(r"([\\`*_{}\[\]<>|~&$])", r"\\\1", shown(text))
+    escaped = re.sub(r"([\\`*_{}\[\]<>|~&$])", r"\\\1", escape_text(text))
     return re.sub(r"[@#:](?=[\w/])", r"\g<0><!-- -->", escaped)
 
 
 def _code(text: str) -> str:
     """A name as it is, whatever it holds."""
     fence = "`" * (1 + max((len(run) for run in re.findall("`+", text)), default=0))
-    inner = shown(text)
+    inner = escape_text(text)
     return f"{fence} {inner} {fence}" if "`" in inner or inner != inner.strip() else f"{fence}{inner}{fence}"
 
 
 def _fenced(command: str) -> str:
-    command = shown(command)
+    command = escape_text(command)
     longest = max((len(run) for run in re.findall("`+", command)), default=0)
     fence = "`" * max(3, longest + 1)
     return f"{fence}sh\n{command}\n{fence}"

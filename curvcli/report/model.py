@@ -10,7 +10,7 @@ import msgspec
 from ..analysis.configuration import Configured
 from ..curvatures.registry import passes
 from ..errors import Notice
-from ..support.words import in_json, shown
+from ..support.words import escape_json, escape_text
 from .statistics import ColumnStatistics
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
 
 def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
     """JSON text; numbers are the shortest that read back to the same double, what cannot be printed is escaped."""
-    return in_json(msgspec.json.format(one_line(report), indent=2)) + b"\n"
+    return escape_json(msgspec.json.format(one_line(report), indent=2)) + b"\n"
 
 
 def one_line(value: Any) -> bytes:
@@ -191,7 +191,7 @@ def _whole(value: Any) -> Any:
 
 
 def _without_halves(text: str) -> str:
-    return "".join(shown(c) if "\ud800" <= c < "\ue000" else c for c in text)
+    return "".join(escape_text(c) if "\ud800" <= c < "\ue000" else c for c in text)
 
 
 def schema() -> bytes:

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..support.words import counted, shown
+from ..support.words import counted, escape_text
 
 if TYPE_CHECKING:
     from .model import CheckRow, Report, Topology
@@ -89,7 +89,7 @@ def number(value: Any, digits: int = 6) -> str:
         return "(" + ", ".join(number(part, digits) for part in value) + ")"
     if isinstance(value, int):
         return f"{value:,}"
-    return f"{value + 0.0:.{digits}g}" if isinstance(value, float) else shown(str(value))
+    return f"{value + 0.0:.{digits}g}" if isinstance(value, float) else escape_text(str(value))
 
 
 def shell_quoted(arguments: Iterable[str]) -> str:

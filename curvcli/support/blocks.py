@@ -25,7 +25,7 @@ def _alone() -> bool:
 
 
 @contextmanager
-def another_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Found]], Callable[[], _Found]]]:
+def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Found]], Callable[[], _Found]]]:
     """Something that has work begun in another thread, and gives what waits for its result.
 
     worth: whether there is so much to do that a thread pays; else the work is done when its result is asked for.
@@ -39,10 +39,10 @@ def another_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Found
 
 def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
     """Do the work for every piece; pieces must not share what they write, so that the order does not matter."""
-    deque(each(pieces, work), maxlen=0)
+    deque(map_pieces(pieces, work), maxlen=0)
 
 
-def each(pieces: Iterable[_Piece], work: Callable[[_Piece], _Found]) -> Iterator[_Found]:
+def map_pieces(pieces: Iterable[_Piece], work: Callable[[_Piece], _Found]) -> Iterator[_Found]:
     """What the work finds for every piece, in their order; pieces must not share what they write.
 
     Pieces are taken from an iterator as they are needed, so that few are there at a time.

@@ -43,7 +43,7 @@ def require_polars(data: int) -> None:
 _used = False
 
 
-def bound(memory: int) -> None:
+def limit_address_space(memory: int) -> None:
     """Bound the address space of this process at its present size and this much more."""
     global _bounded
     with contextlib.suppress(ImportError, OSError):
@@ -62,7 +62,7 @@ def is_bounded() -> bool:
 _bounded = False
 
 
-def ran_out(error: BaseException) -> bool:
+def is_out_of_memory(error: BaseException) -> bool:
     """Whether an exception, or one that led to it, means that there was no memory left.
 
     Under a limit a thread cannot start, a library cannot be mapped, an import fails, each in its own words; extensions
@@ -102,7 +102,7 @@ def limited() -> bool:
     return resource.getrlimit(resource.RLIMIT_AS)[0] != resource.RLIM_INFINITY
 
 
-def give_back() -> None:
+def trim_heap() -> None:
     """Return freed memory to the system where the address space is limited, so that other allocators can have it.
 
     The command keeps freed memory in its heap, where numpy finds it again but polars and the imports do not.

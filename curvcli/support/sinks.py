@@ -69,7 +69,7 @@ class Sink(io.RawIOBase):
         return True
 
 
-class Talk(Sink):
+class StderrSink(Sink):
     """stderr: what cannot be told is forgotten, for it must not end the work."""
 
     _left = _PATIENCE
@@ -102,7 +102,7 @@ def _now() -> float:
     return time.monotonic()
 
 
-def whole(stream: TextIO, kind: type[Sink] = Sink) -> TextIO:
+def text_sink(stream: TextIO, kind: type[Sink] = Sink) -> TextIO:
     """A stream of text on the same descriptor that writes all; the same stream where it has none.
 
     Letters that its encoding lacks are escaped: a terminal of ASCII gets its summary too.
@@ -120,7 +120,7 @@ def whole(stream: TextIO, kind: type[Sink] = Sink) -> TextIO:
     )
 
 
-def binary(stream: TextIO) -> BinaryIO:
+def binary_sink(stream: TextIO) -> BinaryIO:
     """The bytes of a stream of text, written whole whoever made it."""
     stream.flush()
     buffer = stream.buffer

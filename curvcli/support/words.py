@@ -10,7 +10,7 @@ from difflib import get_close_matches
 _CHOICE = re.compile(r"\[([^][|]*)\|([^][|]*)\]")
 
 
-def agree(count: float, text: str) -> str:
+def pluralize(count: float, text: str) -> str:
     """The text with each `[one|many]` as the number demands: `[vertex|vertices] that no face uses`."""
     return _CHOICE.sub(r"\1" if count == 1 else r"\2", text)
 
@@ -29,7 +29,7 @@ def _form(count: int, one: str, many: str | None) -> str:
     return one if count == 1 else many or one + "s"
 
 
-def shown(text: str) -> str:
+def escape_text(text: str) -> str:
     """The text on one line, what cannot be printed escaped."""
     if text.isprintable():
         return text
@@ -41,7 +41,7 @@ def shown(text: str) -> str:
 _ASCII = bytes(range(128))
 
 
-def in_json(data: bytes) -> bytes:
+def escape_json(data: bytes) -> bytes:
     r"""JSON that a terminal can show: the same values, with what cannot be printed in them as `\u`."""
     # Outside of strings all is printable but the ends of lines. ASCII goes first: most of a report is that.
     beyond = set(data.translate(None, _ASCII).decode("utf-8"))
@@ -65,7 +65,7 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _HARMLESS = frozenset("\t\n\u00a0\u1680\u2002\u2003\u2007\u2009\u202f\u3000\u200c\u200d")
 
 
-def in_cell(text: str) -> str:
+def escape_cell(text: str) -> str:
     """Text for a cell of a table in text, from which a spreadsheet computes nothing.
 
     A text that a spreadsheet would take for a formula gets an apostrophe before it, and so does one that begins with
@@ -73,11 +73,11 @@ def in_cell(text: str) -> str:
     which is not undone.
     """
     if not text.isprintable():
-        text = "".join(c if c.isprintable() or c in _HARMLESS else shown(c) for c in text)
+        text = "".join(c if c.isprintable() or c in _HARMLESS else escape_text(c) for c in text)
     return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
 
 
-def from_cell(text: str) -> str:
+def unescape_cell(text: str) -> str:
     """The text of a cell that `in_cell` made."""
     return text[1:] if text.startswith("'") and _FORMULA.match(text) else text
 
@@ -85,9 +85,9 @@ def from_cell(text: str) -> str:
 _LINK = re.compile(r"\[(?=[^\[\]]*\]\()")
 
 
-def in_sarif(text: str) -> str:
+def escape_sarif(text: str) -> str:
     """Text for a message of SARIF, in which nothing is a link of its dialect."""
-    return _LINK.sub(r"\\[", shown(text)).replace("](", r"\](")
+    return _LINK.sub(r"\\[", escape_text(text)).replace("](", r"\](")
 
 
 # Names less alike than this (of `difflib`) are no suggestion.
@@ -98,7 +98,7 @@ _CUTOFF = 0.6
 _SHORT = 8
 
 
-def nearest(name: str, known: Iterable[str]) -> list[str]:
+def suggest(name: str, known: Iterable[str]) -> list[str]:
     """Up to three known names like this one, nearest first, whatever the case; `-` and `_` are the same."""
     folded: dict[str, list[str]] = {}
     for one in known:
@@ -122,7 +122,7 @@ def suggestion(name: str, known: Iterable[str], listing: str = "") -> str:
     lists it.
     """
     names = list(dict.fromkeys(known))
-    near = nearest(name, names)
+    near = suggest(name, names)
     if near:
         return f"; nearest: {', '.join(near)}"
     if 0 < len(names) <= _SHORT:
@@ -130,7 +130,7 @@ def suggestion(name: str, known: Iterable[str], listing: str = "") -> str:
     return f"; {listing}" if listing else ""
 
 
-def number(value: float) -> str:
+def format_number(value: float) -> str:
     """The shortest text of a number that reads back, as a person would write it."""
     text = f"{value:.15g}"
     return text if float(text) == value else repr(value)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import curvcli
-from curvcli.support.words import nearest, suggestion
+from curvcli.support.words import suggest, suggestion
 from tests.cli.conftest import Run
 from tests.cli.program import CUBE
 
@@ -16,15 +16,15 @@ FOLDER = Path(curvcli.__file__).parent
 
 
 def test_the_case_is_ignored() -> None:
-    assert nearest("KAPPA_1", ["kappa_1", "kappa_2", "K"]) == ["kappa_1"]
-    assert nearest("k", ["K", "kappa_1"]) == ["K"]
-    assert nearest("Gauss-Bonnet", ["gauss_bonnet", "volume"]) == ["gauss_bonnet"]
+    assert suggest("KAPPA_1", ["kappa_1", "kappa_2", "K"]) == ["kappa_1"]
+    assert suggest("k", ["K", "kappa_1"]) == ["K"]
+    assert suggest("Gauss-Bonnet", ["gauss_bonnet", "volume"]) == ["gauss_bonnet"]
 
 
 def test_few_names_are_suggested_and_sensible_ones() -> None:
     many = [f"willmore_{k}" for k in range(50)] + ["area", "volume"]
-    assert len(nearest("willmore", many)) == 3
-    assert nearest("xyzzy", many) == []
+    assert len(suggest("willmore", many)) == 3
+    assert suggest("xyzzy", many) == []
     assert suggestion("xyzzy", many) == ""
     assert suggestion("xyzzy", many, "`curvcli passes` lists them") == "; `curvcli passes` lists them"
     assert suggestion("arae", many) == "; nearest: area"
@@ -33,8 +33,8 @@ def test_few_names_are_suggested_and_sensible_ones() -> None:
 
 
 def test_a_name_may_be_begun() -> None:
-    assert nearest("gauss", ["gauss_bonnet", "gauss_bonnet_combinatorial", "area_gradient"])[0] == "gauss_bonnet"
-    assert "nonmanifold_edges" in nearest("nonman", ["nonmanifold_edges", "closed"])
+    assert suggest("gauss", ["gauss_bonnet", "gauss_bonnet_combinatorial", "area_gradient"])[0] == "gauss_bonnet"
+    assert "nonmanifold_edges" in suggest("nonman", ["nonmanifold_edges", "closed"])
 
 
 ASKED = [
@@ -106,4 +106,4 @@ def test_suggestions_are_made_in_one_place() -> None:
             if isinstance(node, ast.Import | ast.ImportFrom)
             for name in ([node.module] if isinstance(node, ast.ImportFrom) else [alias.name for alias in node.names])
         }
-        assert "difflib" not in imported or path.name == "nearest.py", path
+        assert "difflib" not in imported or path.name == "words.py", path

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from curvcli.support.words import from_cell, in_cell, in_json, in_sarif
+from curvcli.support.words import escape_cell, escape_json, escape_sarif, unescape_cell
 from tests.cli.conftest import Run
 from tests.cli.program import command, environment
 from tests.cli.text_sources import PAYLOADS, SOURCES, Source, ply, stored
@@ -82,7 +82,7 @@ def test_pipes_and_files(source: Source, within: Run, tmp_path: Path) -> None:
                 rows = list(csv.DictReader(stream, delimiter="\t" if suffix == "tsv" else ","))
             assert len(rows) == len(names)
             for name, row in zip(names, rows, strict=True):
-                assert from_cell(row["region"]) == name or not name.isprintable()
+                assert unescape_cell(row["region"]) == name or not name.isprintable()
         labels = np.load(tmp_path / "out" / "r.npz")["region_names"].tolist()
         assert [name.rstrip("\0") for name in names] == labels
     _page((tmp_path / "out" / "k.html").read_text())
@@ -270,26 +270,26 @@ def test_terminals_that_compare(tmp_path: Path) -> None:
 def test_json_is_the_same_value() -> None:
     text = "".join(PAYLOADS) + "ü😀\U000e0041"
     data = json.dumps({text: text}, ensure_ascii=False, indent=1).encode()
-    shown = in_json(data)
+    shown = escape_json(data)
     assert json.loads(shown) == {text: text}
     plain(shown.decode())
     assert "ü😀".encode() in shown
-    assert in_json(b'{"a": 1}') == b'{"a": 1}'
+    assert escape_json(b'{"a": 1}') == b'{"a": 1}'
 
 
 @pytest.mark.parametrize("text", [*PAYLOADS, "", "'", "''", "''=1", "'a", "a", "-", "+", "1", "-1.5e-3", "−1", "\n=1"])
 def test_cells(text: str) -> None:
-    cell = in_cell(text)
+    cell = escape_cell(text)
     assert not FORMULA.match(cell) or NUMBER.fullmatch(cell)
     if text.isprintable() or text in ("\t=1", "\n=1"):
-        assert from_cell(cell) == text
+        assert unescape_cell(cell) == text
     if NUMBER.fullmatch(text):
         assert cell == text
 
 
 def test_links_of_sarif() -> None:
-    assert in_sarif("see [a](b) and [c]") == r"see \[a\](b) and [c]"
-    assert in_sarif("faces [0, 3)") == "faces [0, 3)"
+    assert escape_sarif("see [a](b) and [c]") == r"see \[a\](b) and [c]"
+    assert escape_sarif("faces [0, 3)") == "faces [0, 3)"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="names that are not UTF-8 are Linux's")

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from curvcli.loading.read import read_mesh_file
-from curvcli.support.words import shown
+from curvcli.support.words import escape_text
 from tests.loading.files import CONTENT, OBJ, PLY, STL, refused
 
 
@@ -78,7 +78,7 @@ def test_odd_names(tmp_path: Path, name: str) -> None:
     path.write_bytes(OBJ)
     mesh = read_mesh_file(path)
     assert mesh.polygons == 2
-    assert mesh.path == shown(str(path))
+    assert mesh.path == escape_text(str(path))
     path.write_bytes(OBJ + b"f 1 2 9\n")
     assert refused(path).endswith(
         "line 7: vertex index `9` found, 1 to 4 expected, or negative: counted back from this line"
@@ -90,7 +90,7 @@ def test_odd_names(tmp_path: Path, name: str) -> None:
     [("π.obj", "π.obj"), ("a\udcff\n.obj", r"a\xff\n.obj"), ("\ud800\udcff", r"\ud800\udcff"), (r"\xff", r"\xff")],
 )
 def test_text_on_one_line(text: str, told: str) -> None:
-    assert shown(text) == told == shown(told)
+    assert escape_text(text) == told == escape_text(told)
 
 
 def test_names_that_are_not_utf_8(tmp_path: Path) -> None:

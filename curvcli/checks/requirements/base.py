@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from ...errors import UsageError
 from ...mesh.surface import Surface
-from ...support.words import number, suggestion
+from ...support.words import format_number, suggestion
 
 Test = Callable[..., str]
 Number = Literal["", "N", "TOL"]
@@ -51,7 +51,7 @@ class Requirement:
     @property
     def name(self) -> str:
         """As it is written after --require, such as `genus=1`."""
-        return self.kind.name if self.value is None else f"{self.kind.name}={number(self.value)}"
+        return self.kind.name if self.value is None else f"{self.kind.name}={format_number(self.value)}"
 
     def problem(self, surface: Surface, given: Mapping[str, Any]) -> str:
         """The fault of a surface, with the first place; empty where the requirement is met.

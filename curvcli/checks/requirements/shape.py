@@ -12,13 +12,13 @@ from ...support.arrays import Column, Flags, VectorColumn
 from ..special import constant_mean_curvature, steiner
 from .base import requirement
 from .topology import closed, connected, euler, manifold, oriented
-from .wording import joined, vertices
+from .wording import join_problems, vertices
 
 
 @requirement("convex", remedy="look where `K_minus` is largest: there the surface is not convex")
 def convex(surface: Surface, face_area: Column, H_theta: Column, K: Column, K_minus: Column) -> str:
     """The surface bounds a convex body: closed, connected, χ = 2 and ΣK⁻ = 0."""
-    problem = joined(closed(surface), manifold(surface), connected(surface)) or euler(surface, 2)
+    problem = join_problems(closed(surface), manifold(surface), connected(surface)) or euler(surface, 2)
     if problem:
         return problem
     columns = {"face_area": face_area, "H_theta": H_theta, "K": K, "K_minus": K_minus}

@@ -6,11 +6,11 @@ import numpy as np
 
 from ...mesh.counts import duplicate_faces, duplicate_vertices
 from ...mesh.surface import Surface
-from ...mesh.walls import told
+from ...mesh.walls import describe_walls
 from ...support.arrays import Flags
 from ...support.words import counted
 from .base import requirement
-from .wording import explained, faces, joined, located, vertices
+from .wording import faces, join_problems, located, vertices, with_explanation
 
 # Faces that the reader or the surface dropped, which no later count sees.
 _DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
@@ -26,14 +26,14 @@ def no_degenerate(surface: Surface, degenerate_face: Flags) -> str:
         for notice in surface.notices
         if (what := _DROPPED.get(notice.code))
     ]
-    return joined(faces(surface, np.flatnonzero(degenerate_face), "without area"), *dropped)
+    return join_problems(faces(surface, np.flatnonzero(degenerate_face), "without area"), *dropped)
 
 
 @requirement("no-duplicate-faces", remedy="remove the later of each two: both add to areas and angles")
 def no_duplicate_faces(surface: Surface) -> str:
     """No two faces have the same corners."""
     found = faces(surface, duplicate_faces(surface), "with the corners of an earlier one")
-    return explained(found, told(surface))
+    return with_explanation(found, describe_walls(surface))
 
 
 @requirement("no-unreferenced", remedy="remove them from the file; they change no value")

@@ -6,14 +6,14 @@ import math
 
 import numpy as np
 
-from ...mesh.bodies import taken_apart
-from ...mesh.counts import census, classify
-from ...mesh.seams import way_to_close
-from ...mesh.solids.notices import kinds
+from ...mesh.bodies import split_bodies
+from ...mesh.counts import classify, count_groups
+from ...mesh.seams import describe_best_welding
+from ...mesh.solids.notices import list_kinds
 from ...mesh.surface import Surface
-from ...mesh.walls import told
+from ...mesh.walls import describe_walls
 from .base import requirement
-from .wording import edges, explained, face_name, joined, located, vertices
+from .wording import edges, face_name, join_problems, located, vertices, with_explanation
 
 
 @requirement(
@@ -23,7 +23,7 @@ from .wording import edges, explained, face_name, joined, located, vertices
 def closed(surface: Surface) -> str:
     """No edge has only one face."""
     found = edges(surface, surface.boundary_edges, "with only one face")
-    return explained(found, way_to_close(surface) if found else "")
+    return with_explanation(found, describe_best_welding(surface) if found else "")
 
 
 @requirement(
@@ -34,11 +34,11 @@ def closed(surface: Surface) -> str:
 def manifold(surface: Surface) -> str:
     """Every edge has at most two faces and every star is one fan."""
     split = np.flatnonzero(surface.split_stars)
-    found = joined(
+    found = join_problems(
         edges(surface, surface.nonmanifold_edges, "with more than two faces"),
         vertices(split, "whose star is not one fan", "whose stars are not one fan"),
     )
-    return explained(found, told(surface))
+    return with_explanation(found, describe_walls(surface))
 
 
 @requirement(
@@ -69,10 +69,10 @@ def consistent_winding(surface: Surface) -> str:
 )
 def outward(surface: Surface) -> str:
     """Bodies have a positive volume and cavities a negative one as the file winds them; no two closed patches cross."""
-    apart = taken_apart(surface)
+    apart = split_bodies(surface)
     if not apart.solids.count:
         return "no patch is closed and orientable, so that none has an outside"
-    return joined(_inside_out(surface, apart), _crossing(surface, apart))
+    return join_problems(_inside_out(surface, apart), _crossing(surface, apart))
 
 
 def _inside_out(surface: Surface, apart: Surface) -> str:
@@ -84,7 +84,7 @@ def _inside_out(surface: Surface, apart: Surface) -> str:
     first = face_name(surface, solids.first_face[turned[0]])
     found = located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
     if len(turned) > 1:
-        return f"{found}: {kinds(apart, turned)}"
+        return f"{found}: {list_kinds(apart, turned)}"
     return f"{found}: a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
 
 
@@ -127,7 +127,7 @@ def genus(surface: Surface, wanted: float) -> str:
 )
 def euler(surface: Surface, wanted: float) -> str:
     """The Euler characteristic V − E + F is N."""
-    counts = census(surface, surface.whole)
+    counts = count_groups(surface, surface.whole)
     found = int(counts.euler_characteristic[0])
     return "" if found == wanted else f"χ = {found}, expected {wanted}"
 

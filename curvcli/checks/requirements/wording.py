@@ -42,11 +42,11 @@ def vertices(where: NDArray[np.integer[Any]], one: str, many: str) -> str:
     return located(len(where), f"vertex {one}", f"vertices {many}", f"vertex {where[0]}") if len(where) else ""
 
 
-def explained(problem: str, explanation: str) -> str:
+def with_explanation(problem: str, explanation: str) -> str:
     """A problem with its explanation or its way out, or nothing without a problem."""
     return f"{problem}; {explanation}" if problem and explanation else problem
 
 
-def joined(*problems: str) -> str:
+def join_problems(*problems: str) -> str:
     """Several problems in one line, or nothing."""
     return ", ".join(problem for problem in problems if problem)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ...support.words import shown
+from ...support.words import escape_text
 from . import shells
 
 _SHELL = click.argument("name", metavar="[SHELL]", required=False, type=click.Choice(shells.SHELLS))
@@ -30,7 +30,7 @@ def install(name: str | None) -> int:
     """Write the script where the shell finds it and, for bash and zsh, the lines that load it."""
     one = shells.shell(name)
     for path, changed in shells.install(one):
-        click.echo(f"{'written' if changed else 'unchanged'}: {shown(str(path))}")
+        click.echo(f"{'written' if changed else 'unchanged'}: {escape_text(str(path))}")
     click.echo(f"new {one.name} shells complete `curvcli`; `curvcli completion remove {one.name}` takes it away")
     return 0
 
@@ -42,7 +42,7 @@ def remove(name: str | None) -> int:
     one = shells.shell(name)
     for path, changed in shells.remove(one):
         did = "nothing to remove" if not changed else "removed" if path == one.script else "block removed"
-        click.echo(f"{did}: {shown(str(path))}")
+        click.echo(f"{did}: {escape_text(str(path))}")
     return 0
 
 

@@ -14,7 +14,7 @@ from ...mesh.orientation import Sign
 from ...mesh.surface import Surface
 from ...mesh.topology import Index, Mask, faces_at
 from ...mesh.triangles import Floats, Triangles, cross, triangles
-from ...support.blocks import ENTRIES, another_thread, for_each, slices
+from ...support.blocks import ENTRIES, background_thread, for_each, slices
 
 # Stars of more faces are summed in pairs.
 LARGE_STAR = 32
@@ -63,7 +63,7 @@ def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     # Memory that another thread allocates is given back and touched anew with every block; two are in use at a time.
     rooms = cycle(np.empty((2, 3, min(ENTRIES, n_faces))))
     # Arc tangents are nearly half of the work: those of a block are worked out beside all the rest of it.
-    with another_thread(n_faces > ENTRIES) as begun:
+    with background_thread(n_faces > ENTRIES) as begun:
         for block in slices(n_faces):
             t = triangles(xyz, faces[block])
             angles = begun(partial(t.angles, next(rooms)))

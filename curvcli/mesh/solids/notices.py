@@ -15,13 +15,15 @@ if TYPE_CHECKING:
     from ..surface import Surface
 
 
-def of_solids(surface: Surface) -> Iterator[Notice]:
+def solid_notices(surface: Surface) -> Iterator[Notice]:
     """The notices of a surface's solid patches, each named by its lowest face."""
     solids = surface.solids
     wrong = np.flatnonzero(solids.inside_out)
     faces = solids.first_face[wrong] if len(wrong) else wrong
     if surface.orient == "outward":
-        message = f"closed [patch|patches], named by [its|their] lowest face, turned outwards: {kinds(surface, wrong)}"
+        message = (
+            f"closed [patch|patches], named by [its|their] lowest face, turned outwards: {list_kinds(surface, wrong)}"
+        )
         yield Notice.at("inside_out", faces, message, "--orient file keeps the sides that the file gives")
     else:
         yield Notice.at("inside_out", faces, _inside_out(surface, wrong), "--orient outward turns [it|them]")
@@ -50,12 +52,12 @@ def _inside_out(surface: Surface, wrong: NDArray[np.intp]) -> str:
             "out of the [cavity|cavities], into the solid, and signs are reversed"
         )
     return (
-        f"closed patches inside out, named by their lowest faces: {kinds(surface, wrong)}; their normals point into "
-        "the solid and signs are reversed"
+        f"closed patches inside out, named by their lowest faces: {list_kinds(surface, wrong)}; their normals point "
+        "into the solid and signs are reversed"
     )
 
 
-def kinds(surface: Surface, patches: NDArray[np.intp]) -> str:
+def list_kinds(surface: Surface, patches: NDArray[np.intp]) -> str:
     """How many bodies and cavities there are among these patches."""
     cavities = int((surface.solids.depth[patches] % 2).sum())
     bodies = len(patches) - cavities

@@ -16,7 +16,7 @@ from ...report.build import model
 from ...report.phrases import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ...report.quantities import unmarked
 from ...report.verdict import holds, proof
-from ...support.words import shown
+from ...support.words import escape_text
 from ..pictures.camera import frame
 from ..pictures.framing import VIEWS, Look, parse_view
 from .bend import bend, cell, in_cells
@@ -45,7 +45,7 @@ def page(analysis: Result, appearance: Appearance, colored: tuple[str, ...], com
     from markupsafe import Markup
 
     def finalize(value: Any) -> Any:
-        return shown(value) if isinstance(value, str) and not hasattr(value, "__html__") else value
+        return escape_text(value) if isinstance(value, str) and not hasattr(value, "__html__") else value
 
     templates = Environment(
         loader=PackageLoader("curvcli.output.html"),
@@ -152,7 +152,7 @@ def _coded(text: str) -> Any:
     """Text whose parts between backticks are code."""
     from markupsafe import Markup
 
-    parts = shown(text).split("`")
+    parts = escape_text(text).split("`")
     if len(parts) % 2 == 0:
         return text
     return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))

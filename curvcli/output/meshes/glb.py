@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Notice, OutputError
-from ...support.words import agree
+from ...support.words import pluralize
 
 
 def write_glb(
@@ -46,7 +46,7 @@ def write_glb(
     rounded = int((kept != shifted).any(axis=1).sum())
     if not rounded:
         return ()
-    message = agree(rounded, "[position|positions] rounded to float32, the only precision glTF has")
+    message = pluralize(rounded, "[position|positions] rounded to float32, the only precision glTF has")
     return (Notice("glb_float32", rounded, message, hint="write .ply, .vtp or .obj to keep every digit"),)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable
 
 from ...errors import Notice
-from ...support.words import agree, shown
+from ...support.words import escape_text, pluralize
 
 
 def fitting(names: Iterable[str], fit: Callable[[str], str], taken: Collection[str] = ()) -> dict[str, str]:
@@ -29,17 +29,17 @@ def fitting(names: Iterable[str], fit: Callable[[str], str], taken: Collection[s
 def respelt(*written: dict[str, str]) -> tuple[Notice, ...]:
     """The notice of names that a format spells in another way; none where there is none."""
     pairs = (pair for each in written for pair in each.items())
-    changed = dict.fromkeys(f"{shown(name)} -> {shown(one)}" for name, one in pairs if name != one)
+    changed = dict.fromkeys(f"{escape_text(name)} -> {escape_text(one)}" for name, one in pairs if name != one)
     if not changed:
         return ()
-    words = agree(len(changed), "[name|names] of properties that the output spells in another way: ")
+    words = pluralize(len(changed), "[name|names] of properties that the output spells in another way: ")
     message = words + ", ".join(changed)
     return (Notice("renamed_properties", len(changed), message, "the values are kept under the new names"),)
 
 
 def one_word(name: str) -> str:
     """A name as one word of text: blanks as underscores, what cannot be printed escaped."""
-    return shown("_".join(part for part in name.split(" ") if part)) or "_"
+    return escape_text("_".join(part for part in name.split(" ") if part)) or "_"
 
 
 def xml_name(name: str) -> str:

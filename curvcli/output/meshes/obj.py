@@ -9,7 +9,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from ...support.blocks import slices
-from ...support.words import shown
+from ...support.words import escape_text
 from .parts import Parts
 from .text import ROWS_AT_A_TIME, lines, numbers, without, write_lines
 
@@ -26,7 +26,7 @@ def write_obj(
     """
     colors, polygons = parts.get("vertex_colors"), parts.get("polygons")
     for comment in parts.get("comments", ()):
-        stream.write(f"# {shown(' '.join(comment.split()))}\n".encode())
+        stream.write(f"# {escape_text(' '.join(comment.split()))}\n".encode())
     for rows in slices(len(points), ROWS_AT_A_TIME):
         columns: dict[str, pl.Series | str] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}
         if colors is not None:

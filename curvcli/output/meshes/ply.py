@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...errors import Notice
 from ...mesh.file import Labels
-from ...support.words import shown
+from ...support.words import escape_text
 from ..tables.write import Column
 from .names import fitting, one_word, respelt
 from .parts import Parts
@@ -42,7 +42,7 @@ def write_ply(
     vertices: dict[str, NDArray[Any]] = {axis: points[:, k] for k, axis in enumerate("xyz")}
     if (colors := parts.get("vertex_colors")) is not None:
         vertices |= {name: colors[:, k] for k, name in enumerate(("red", "green", "blue"))}
-    told = [shown(" ".join(comment.split())) for comment in parts.get("comments", ())]
+    told = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
     of_vertices, of_faces = parts.get("vertex_properties") or {}, parts.get("face_properties") or {}
     if clash := vertices.keys() & of_vertices.keys():
         raise ValueError(f"two vertex properties named {', '.join(sorted(clash))}")
@@ -173,4 +173,4 @@ def meaning(name: str, labels: Labels, none: int) -> str:
         meanings.append(f"and {len(labels.names) - _NAMES_TOLD} more")
     if (labels.codes < 0).any():
         meanings.append(f"{none} none")
-    return shown(f"{name}: " + ", ".join(meanings))
+    return escape_text(f"{name}: " + ", ".join(meanings))

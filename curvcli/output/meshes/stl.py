@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...errors import Notice, OutputError
 from ...support.blocks import slices
-from ...support.words import agree
+from ...support.words import pluralize
 from .text import ROWS_AT_A_TIME, lines, numbers, without
 
 _HEADER = b"binary STL written by curvcli".ljust(80, b" ")
@@ -44,7 +44,7 @@ def write_stl(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.i
     rounded = int((kept != used).any(axis=1).sum())
     if not rounded:
         return ()
-    message = agree(rounded, "[position|positions] rounded to float32, the only precision binary STL has")
+    message = pluralize(rounded, "[position|positions] rounded to float32, the only precision binary STL has")
     return (Notice("stl_float32", rounded, message, hint="write .ply or .obj to keep every digit"),)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...errors import InputError, Notice
 from ...mesh.file import Labels
-from ...support.words import shown
+from ...support.words import escape_text
 from ..tables.write import Column
 from .names import fitting, respelt, xml_attribute, xml_name
 from .parts import Parts, Polygons
@@ -42,7 +42,7 @@ def write_vtk(
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
     data, arrays = _mesh(suffix, faces, parts.get("polygons"))
-    told = [shown(" ".join(comment.split())) for comment in parts.get("comments", ())]
+    told = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
     at = vtkPoints()
     at.SetData(_array(points, arrays))
     data.SetPoints(at)

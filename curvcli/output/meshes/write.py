@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Notice
-from ...support.words import agree
+from ...support.words import pluralize
 from ..tables.write import Column
 from .obj import write_obj
 from .parts import Parts
@@ -69,5 +69,7 @@ def beside_input(
     merged |= ours
     if not renamed:
         return merged, ()
-    message = agree(len(renamed), "[property|properties] of the input with a name that is taken: ") + ", ".join(renamed)
+    message = pluralize(len(renamed), "[property|properties] of the input with a name that is taken: ") + ", ".join(
+        renamed
+    )
     return merged, (Notice("renamed_properties", len(renamed), message, "the values are kept under the new names"),)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...support.words import shown
+from ...support.words import escape_text
 from .framing import background_rgb
 
 Color = tuple[float, float, float]
@@ -58,7 +58,7 @@ class Sheet:
         self.figure.text(
             x / self.width,
             1 - y / self.height,
-            shown(text),
+            escape_text(text),
             fontsize=size * 0.72,
             color=color or self.ink,
             family=_FONT,
@@ -76,7 +76,7 @@ class Sheet:
         font = FontProperties(family=_FONT, size=size * 0.72, weight="bold" if bold else "normal")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            width: float = self.canvas.get_renderer().get_text_width_height_descent(shown(text), font, False)[0]
+            width: float = self.canvas.get_renderer().get_text_width_height_descent(escape_text(text), font, False)[0]
         return width
 
     def rectangle(self, box: Box, color: Color) -> None:
@@ -119,7 +119,7 @@ class Sheet:
         stream = io.BytesIO()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            self.canvas.print_png(stream, metadata={key: shown(text) for key, text in about.items()})
+            self.canvas.print_png(stream, metadata={key: escape_text(text) for key, text in about.items()})
         return stream.getvalue()
 
     # ------------------------------------------------------------------ legends

@@ -18,7 +18,7 @@ from polars.io.plugins import register_io_source
 from ...errors import InputError, OutputError, UsageError
 from ...mesh.file import Labels
 from ...support.forks import require_threads, threads_lost
-from ...support.words import in_cell
+from ...support.words import escape_cell
 from ..meshes.names import fitting
 from ..meshes.text import joined
 from .columns import ROWS_IN_A_FRAME
@@ -97,12 +97,12 @@ def _write_text(
 
 def _for_spreadsheets(columns: Mapping[str, Column]) -> Mapping[str, Column]:
     """The columns with words and headers that no spreadsheet takes for formulas."""
-    heads = fitting(columns, in_cell)
+    heads = fitting(columns, escape_cell)
     return {heads[name]: _in_cells(column) for name, column in columns.items()}
 
 
 def _in_cells(column: Column) -> Column:
-    return Labels(column.codes, tuple(map(in_cell, column.names))) if isinstance(column, Labels) else column
+    return Labels(column.codes, tuple(map(escape_cell, column.names))) if isinstance(column, Labels) else column
 
 
 def _text(frame: pl.DataFrame, separator: str, digits: int | None, header: bool) -> bytes:

@@ -18,7 +18,7 @@ from ...curvatures.quantity import AT_SCALE, Quantity
 from ...curvatures.registry import passes
 from ...errors import UsageError
 from ...mesh.scale import Scale, Settings
-from ...support.words import number, suggestion
+from ...support.words import format_number, suggestion
 from ..quantities import public
 from ..statistics import statistics
 
@@ -52,7 +52,7 @@ class Assertion:
     @property
     def name(self) -> str:
         """As it is written after --assert."""
-        return f"{self.statistic}({self.column}) {self.comparison} {number(self.bound)}"
+        return f"{self.statistic}({self.column}) {self.comparison} {format_number(self.bound)}"
 
     def judge(self, analysis: Result) -> tuple[bool, float | None, str]:
         """Whether it holds, the statistic's value (None where undefined), and both in words."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 from ...analysis.configuration import sentence
-from ...support.words import shown
+from ...support.words import escape_text
 from ..terminal.check import summary
 from .lines import all_failures, warning, warnings
 from .model import CheckReport
@@ -36,5 +36,5 @@ def _command(kind: str, title: str, message: str, path: str = "-") -> str:
     properties = {"title": title}
     if path != "-":
         properties = {"file": os.path.normpath(path).replace(os.sep, "/"), **properties}
-    named = ",".join(f"{key}={shown(value).translate(_PROPERTY)}" for key, value in properties.items())
+    named = ",".join(f"{key}={escape_text(value).translate(_PROPERTY)}" for key, value in properties.items())
     return f"::{kind} {named}::{message.translate(_DATA)}"

@@ -14,7 +14,7 @@ from ...curvatures.engine import evaluate
 from ...curvatures.registry import passes
 from ...errors import FAILED_CHECK, OK, UsageError
 from ...mesh.scale import Scale
-from ...support.words import shown, suggestion
+from ...support.words import escape_text, suggestion
 from ..model import CONVENTIONS, Value, remarks
 from . import assertions
 from .assertions import Assertion
@@ -107,9 +107,9 @@ def _of_identity(check: Check, flaw: str) -> Outcome:
     return Outcome(
         check.name,
         IDENTITY,
-        shown(check.scope),
+        escape_text(check.scope),
         check.status,
-        shown(message),
+        escape_text(message),
         cast(Value, check.value),
         cast(Value, check.expected),
         check.residual,

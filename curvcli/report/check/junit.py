@@ -7,7 +7,7 @@ from io import BytesIO
 import msgspec
 from junitparser import Attr, Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 
-from ...support.words import shown
+from ...support.words import escape_text
 from .model import ERROR, FAIL, NOT_APPLICABLE, CheckedMesh, CheckReport, Outcome, sentence
 
 
@@ -21,7 +21,7 @@ def write_junit(report: CheckReport) -> bytes:
     """JUnit XML; checks that do not apply are skipped, a mesh that cannot be read is an error."""
     document = JUnitXml("curvcli check")
     for mesh in report.meshes:
-        suite = TestSuite(shown(mesh.path))
+        suite = TestSuite(escape_text(mesh.path))
         if not isinstance(report.configuration, msgspec.UnsetType):
             suite.add_property("curvcli.configuration", report.configuration.file)
             suite.add_property("curvcli.configuration.sets", report.configuration.words)
@@ -34,13 +34,13 @@ def write_junit(report: CheckReport) -> bytes:
 
 
 def _case(mesh: CheckedMesh, outcome: Outcome) -> Case:
-    case = Case(shown(outcome.label), f"curvcli.{outcome.kind}")
-    case.file = shown(mesh.path)
+    case = Case(escape_text(outcome.label), f"curvcli.{outcome.kind}")
+    case.file = escape_text(mesh.path)
     kinds = {FAIL: Failure, ERROR: Error, NOT_APPLICABLE: Skipped}
     if outcome.status in kinds:
-        result = kinds[outcome.status](shown(outcome.message), outcome.kind)
+        result = kinds[outcome.status](escape_text(outcome.message), outcome.kind)
         result.text = sentence(mesh, outcome)
         case.result = [result]
     else:
-        case.system_out = shown(outcome.message)
+        case.system_out = escape_text(outcome.message)
     return case

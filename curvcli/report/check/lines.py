@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from ...support.words import counted, shown
+from ...support.words import counted, escape_text
 from ..model import Remark
 from .model import FAIL, PASS, CheckedMesh, Outcome, sentence
 
@@ -34,7 +34,7 @@ def failures(mesh: CheckedMesh, first: int | None = FIRST) -> Iterator[Failure]:
         for outcome in outcomes[:most]:
             yield Failure(mesh, outcome, sentence(mesh, outcome))
         if rest := outcomes[most:]:
-            text = f"{shown(mesh.path)}: {shown(rest[0].name)} fails on {scopes(rest, 'more ')}"
+            text = f"{escape_text(mesh.path)}: {escape_text(rest[0].name)} fails on {scopes(rest, 'more ')}"
             yield Failure(mesh, rest[0], text, len(rest))
 
 
@@ -85,9 +85,11 @@ def warnings(
 
 def warning(mesh: CheckedMesh, remark: Remark) -> str:
     """A warning in one line, with the first places and the hint."""
-    first = f" (first: {', '.join(shown(str(place)) for place in remark.examples[:3])})" if remark.examples else ""
-    hint = f"; {shown(remark.hint)}" if remark.hint else ""
-    return f"{shown(mesh.path)}: {remark.code}: {remark.count:,} {shown(remark.message)}{first}{hint}"
+    first = (
+        f" (first: {', '.join(escape_text(str(place)) for place in remark.examples[:3])})" if remark.examples else ""
+    )
+    hint = f"; {escape_text(remark.hint)}" if remark.hint else ""
+    return f"{escape_text(mesh.path)}: {remark.code}: {remark.count:,} {escape_text(remark.message)}{first}{hint}"
 
 
 def meshes_pass(meshes: Sequence[CheckedMesh]) -> str:

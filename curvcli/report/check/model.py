@@ -6,7 +6,7 @@ import msgspec
 
 from ..._version import __version__
 from ...analysis.configuration import Configuration, Configured, configured
-from ...support.words import shown
+from ...support.words import escape_text
 from ..model import Remark, Value, encode
 
 # What `kind` and `status` can be.
@@ -88,7 +88,7 @@ def report_of(
 
 def failed_input(path: str, message: str, exit_code: int) -> CheckedMesh:
     """A mesh that could not be checked."""
-    outcome = Outcome("input", INPUT, "whole", ERROR, shown(message))
+    outcome = Outcome("input", INPUT, "whole", ERROR, escape_text(message))
     return CheckedMesh(path, None, ERROR, exit_code, None, [outcome], [])
 
 
@@ -104,10 +104,10 @@ def sentence(mesh: CheckedMesh, outcome: Outcome) -> str:
             said = f"{outcome.name} does not apply{on}: {outcome.message}"
         case _:
             said = f"{outcome.name} passes{on}: {outcome.message}"
-    return f"{shown(mesh.path)}: {shown(said)}"
+    return f"{escape_text(mesh.path)}: {escape_text(said)}"
 
 
 def write_json(report: CheckReport) -> bytes:
     """The report as JSON; bytes of a path that are no text are escaped."""
-    meshes = [msgspec.structs.replace(mesh, path=shown(mesh.path)) for mesh in report.meshes]
+    meshes = [msgspec.structs.replace(mesh, path=escape_text(mesh.path)) for mesh in report.meshes]
     return encode(msgspec.to_builtins(msgspec.structs.replace(report, meshes=meshes)))

@@ -11,7 +11,7 @@ from urllib.parse import quote
 import msgspec
 
 from ..._version import __version__
-from ...support.words import in_sarif, shown
+from ...support.words import escape_sarif, escape_text
 from ..model import encode
 from .model import INPUT, CheckedMesh, CheckReport, Outcome, sentence
 
@@ -43,7 +43,7 @@ def _invocation(report: CheckReport) -> dict[str, Any]:
     """The exit code, and the configuration file that has to do with it."""
     found: dict[str, Any] = {"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}
     if not isinstance(report.configuration, msgspec.UnsetType):
-        text = in_sarif(report.configuration.sentence)
+        text = escape_sarif(report.configuration.sentence)
         found["toolConfigurationNotifications"] = [{"level": "note", "message": {"text": text}}]
         found["properties"] = {"configuration": msgspec.to_builtins(report.configuration)}
     return found
@@ -62,8 +62,8 @@ def uri_of(path: str) -> str:
 
 def _rule(rule: Any) -> dict[str, Any]:
     return {
-        "id": shown(rule.name),
-        "shortDescription": {"text": in_sarif(f"{rule.statement}.")},
+        "id": escape_text(rule.name),
+        "shortDescription": {"text": escape_sarif(f"{rule.statement}.")},
         "defaultConfiguration": {"level": "error"},
         "properties": {"kind": rule.kind},
     }
@@ -87,11 +87,11 @@ def _artifact(mesh: CheckedMesh) -> dict[str, Any]:
 def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, int]) -> dict[str, Any]:
     identity = "\0".join((mesh.path, outcome.label)).encode("utf-8", "surrogateescape")
     found: dict[str, Any] = {
-        "ruleId": shown(outcome.name),
+        "ruleId": escape_text(outcome.name),
         "ruleIndex": place[outcome.name],
         "kind": "fail",
         "level": "error",
-        "message": {"text": in_sarif(sentence(mesh, outcome))},
+        "message": {"text": escape_sarif(sentence(mesh, outcome))},
         "partialFingerprints": {"curvcli/v1": hashlib.sha256(identity).hexdigest()},
     }
     if mesh.path != "-":
@@ -99,5 +99,5 @@ def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, in
         artifact = {**_location(mesh.path), "index": index}
         found["locations"] = [{"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": 1}}}]
     if outcome.kind != INPUT:
-        found["properties"] = {"scope": shown(outcome.scope)}
+        found["properties"] = {"scope": escape_text(outcome.scope)}
     return found

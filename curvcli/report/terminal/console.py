@@ -10,7 +10,7 @@ import rich.markup
 from rich.text import Text
 
 from ...analysis.configuration import Configured, sentence
-from ...support.words import shown
+from ...support.words import escape_text
 
 # By the status of a check.
 MARKS = {
@@ -31,7 +31,7 @@ def escape(text: object) -> str:
     This is the one way from data to what a console prints. Names that begin as a workflow command does not begin a line
     as one either.
     """
-    return rich.markup.escape(_COMMAND.sub(r"\1\\x3a", shown(str(text))))
+    return rich.markup.escape(_COMMAND.sub(r"\1\\x3a", escape_text(str(text))))
 
 
 class Console(rich.console.Console):
@@ -47,7 +47,7 @@ class Console(rich.console.Console):
     def render_str(self, text: str, *arguments: Any, **settings: Any) -> Text:
         """Text of cells and lines; what went round `escape` is still harmless here."""
         if not text.isprintable():
-            text = "\n".join(map(shown, text.split("\n")))
+            text = "\n".join(map(escape_text, text.split("\n")))
         return super().render_str(text, *arguments, **settings)
 
     def on_broken_pipe(self) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from ...mesh.scale import in_words
+from ...mesh.scale import describe_scales
 from ..build import model
 from ..model import CheckRow, Report
 from ..phrases import failing_first, shape
@@ -134,7 +134,7 @@ def _conventions(report: Report) -> str:
     mean = "κ₁ + κ₂" if chosen["mean"] == "sum" else "(κ₁ + κ₂)/2"
     rest = "; ".join(f"{key} {chosen[key]}" for key in ("area", "orient", "weld"))
     if chosen["scale"] is not None:
-        rest += f"; estimates at {in_words(chosen['scale'])}"
+        rest += f"; estimates at {describe_scales(chosen['scale'])}"
     if chosen["normals"] is not None:
         rest += f", normals of the {chosen['normals']}"
     if chosen["noise"] is not None:
