@@ -15,7 +15,7 @@ def explained(path: str, error: BaseException, limits: Limits) -> Row:
     if is_out_of_memory(error):
         allowed = limits.memory is not None
         text = (
-            f"{path}: needs more memory than --max-memory allows; a larger limit takes it"
+            f"{path}: needs more memory than --max-memory allows; raise the limit"
             if allowed
             else f"{path}: out of memory; a machine with more memory, or fewer jobs at once (-j), is needed"
         )

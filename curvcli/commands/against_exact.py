@@ -1,4 +1,4 @@
-"""What `curvcli compare` does with a mesh and a table of exact values: error norms of every column that has one."""
+"""Comparison of a mesh with a table of exact values: error norms of every column that has one."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
 
 _POSITION = ("x", "y", "z")
-# What is estimated where -p names nothing.
+# Default passes where -p is not given.
 _ESTIMATED = ("K_density", "h_signed", "kappa_1", "kappa_2", "estimates")
 
 
 def is_exact(cells: Mapping[str, Any]) -> bool:
-    """Whether a table is one of `curvcli sample`: it has the normals of the smooth surface, which no mesh has."""
+    """True for a table of `curvcli sample`: it has the normals of the smooth surface, and no other table does."""
     return "normal_x" in cells and "status" not in cells
 
 

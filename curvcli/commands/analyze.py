@@ -1,4 +1,4 @@
-"""`curvcli analyze`: passes to tables, coloured meshes and the report."""
+"""`curvcli analyze`: write passes as tables, coloured meshes and reports."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     metavar="PATH",
     multiple=True,
     help="Write .csv .tsv .parquet .npz (table), .ply .obj .vtp .vtu .glb (coloured mesh), .png (picture), "
-    ".hist.png (histograms), .json .md (report) or .html (report with the surface to turn); repeatable. "
+    ".hist.png (histograms), .json .md (report) or .html (report with an interactive 3D view); repeatable. "
     "With several meshes, {stem} stands for each one's name. `-` is stdout.",
 )
 @click.option(
@@ -70,7 +70,7 @@ if TYPE_CHECKING:
 @options.talking
 @bounded
 def command(meshes: tuple[str, ...], as_json: bool, get: tuple[str, ...], **settings: Any) -> int:
-    """Compute the curvatures of each MESH, check the identities they keep, and say so.
+    """Compute the curvatures of each MESH and check the identities they keep.
 
     Without -o, --json or --get, a summary goes to stdout. Outputs appear whole or not at all.
 
@@ -88,7 +88,7 @@ def command(meshes: tuple[str, ...], as_json: bool, get: tuple[str, ...], **sett
 
 
 class Run:
-    """One call of `analyze`: its options checked before any work, then mesh after mesh."""
+    """One call of `analyze`: check its options before any work, then analyse mesh after mesh."""
 
     def __init__(
         self,
@@ -172,7 +172,7 @@ class Run:
         return worst(codes)
 
     def done(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> tuple[Any, int]:
-        """The report of one mesh, if it is wanted later, and the exit code; nothing keeps the analysis."""
+        """Analyse one mesh, then free the analysis; return its report, if it is printed later, and the exit code."""
         trim_heap()  # of the mesh before
         analysis = self.one(mesh, paths, tables, outputs)
         return self.tell(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
@@ -203,7 +203,7 @@ class Run:
             with phase("", quiet=True) as checking:
                 _ = analysis.checks
             analysis.timings["check"] = checking.seconds
-            model(analysis)  # its parts are kept for what is said later
+            model(analysis)  # caches the parts of the report that are printed later
 
         with phase(f"{'checking and writing' if paths or tables else 'checking'} {mesh}", self.quiet):
             if paths or tables:
@@ -223,7 +223,7 @@ class Run:
         return analysis
 
     def somebody_asks(self, paths: list[str]) -> bool:
-        """Whether anything that is said or written depends on the checks."""
+        """True if an output, the summary or the exit code depends on the checks."""
         from ..output.formats import format_of
 
         said = self.as_json or bool(self.get) or self.strict or not (self.quiet or self.to_stdout)
@@ -232,12 +232,12 @@ class Run:
         return said or not kinds <= {"table", "mesh", "picture"}
 
     def tell_of_picture(self, line: str) -> None:
-        """What a picture leaves out, on stderr."""
+        """Print on stderr that a picture leaves something out."""
         if not self.quiet:
             say(line)
 
     def tell(self, analysis: Result) -> Any:
-        """What goes to stdout of one analysis; the report where it is wanted later."""
+        """Print one analysis on stdout; return its report if it is printed later."""
         if self.as_json:
             from ..report.build import model
 

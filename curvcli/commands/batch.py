@@ -1,4 +1,4 @@
-"""`curvcli batch`: many meshes on this machine or on a Dask cluster, and a summary with one row each."""
+"""`curvcli batch`: analyse many meshes on this machine or on a Dask cluster, and write a summary with one row each."""
 
 from __future__ import annotations
 
@@ -30,39 +30,39 @@ if TYPE_CHECKING:
     "--save",
     metavar="SUFFIX[,SUFFIX]",
     multiple=True,
-    help="Write of each mesh what `analyze -o` does, such as csv,ply,png,json, or a table, such as edges.csv. "
-    "Without it only the summary is written.",
+    help="Outputs per mesh, by suffix as for `analyze -o`, such as csv,ply,png,json, or a table, such as edges.csv. "
+    "By default only the summary is written.",
 )
-@click.option("--files-from", metavar="LIST|-", help="Take more meshes from a list: lines, or NUL-terminated names.")
+@click.option("--files-from", metavar="LIST|-", help="Read more meshes from a list, one per line or NUL-terminated.")
 @click.option("-j", "--jobs", type=click.IntRange(1), help="Meshes at a time.  [default: one per processor]")
 @click.option(
     "--scheduler",
     metavar="ADDRESS|local:N",
     help="Work on a Dask cluster, such as tcp://host:8786, or on N Dask workers here.",
 )
-@click.option("--resume", is_flag=True, help="Go on in DIR: skip what is done and unchanged.")
+@click.option("--resume", is_flag=True, help="Continue in DIR: skip meshes that are done and unchanged.")
 @click.option(
     "--timeout",
     metavar="SECONDS",
     type=options.Finite(0, 1e9, min_open=True),
-    help="Give up a mesh that takes longer.",
+    help="Stop a mesh that takes longer.",
 )
 @click.option(
     "--max-memory",
     metavar="MB",
     type=click.IntRange(512, 1 << 40),
-    help="Give up a mesh that needs more than this. Linux only.",
+    help="Stop a mesh that needs more memory than this. Linux only.",
 )
 @options.passes
 @click.option("--regions", metavar="groups|objects|materials|PROPERTY", help="Labels of faces within each mesh.")
 @options.reading
 @options.estimating
 @options.drawing
-@click.option("--force", is_flag=True, help="Begin anew in a DIR that is not empty; what is written is replaced.")
+@click.option("--force", is_flag=True, help="Start again in a DIR that is not empty and replace its outputs.")
 @options.strict
 @options.talking
 def command(patterns: tuple[str, ...], **settings: Any) -> int:
-    """Analyse every mesh that a PATTERN or a list names. One bad mesh never stops the rest.
+    """Analyse every mesh matched by a PATTERN or named in a list. One bad mesh never stops the rest.
 
     Quote patterns to have `**` expanded here. Paths below DIR mirror the tree that the meshes are in, with the whole
     name of each: scans/a/b.ply by 'scans/**/*.ply' becomes DIR/a/b.ply.csv. DIR/summary.csv and .parquet have one row
@@ -114,11 +114,11 @@ def run(
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
     items = plan(patterns, files_from, folder, wanted)
     with ExitStack() as workers:
-        # Workers get ready while this process imports what it needs; what a resumed batch leaves them is not known yet.
+        # Workers start while this process imports; the number of meshes left by a resumed batch is not known yet.
         ready = scheduler is None and not resume
         engine = workers.enter_context(_here(limits, jobs, len(items))) if ready else None
         how = _settings(wanted, **conventions)
-        # A scheduler that does not answer leaves no folder behind.
+        # If the scheduler does not answer, no folder is created.
         engine = engine or workers.enter_context(_engine(scheduler, jobs, limits))
         from ..batch.batch import Batch
         from ..batch.manifest import Manifest
@@ -137,7 +137,7 @@ def run(
 
 
 def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **conventions: Any) -> Settings:
-    """How each mesh is done.
+    """Settings of the analysis and outputs of each mesh.
 
     Errors: UsageError for options that do not fit.
     """
@@ -178,13 +178,13 @@ def _engine(scheduler: str | None, jobs: int | None, limits: Limits) -> Abstract
 
 
 def _processors() -> int:
-    """Those that this process may use."""
+    """Number of processors that this process may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> None:
-    """Do it, with a bar on a terminal and a line for every mesh that fails."""
+    """Run the meshes with a progress bar on a terminal, and print a line for every mesh that fails."""
     if quiet or not sys.stderr.isatty():
         for row in batch.work(engine, todo):
             if row.error is not None:
@@ -211,7 +211,7 @@ def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> No
 
 
 def _tell(batch: Batch, begun: int) -> None:
-    """How many meshes ended how, on stdout."""
+    """Print on stdout the number of meshes per status."""
     from rich import box
     from rich.table import Table
 

@@ -1,4 +1,4 @@
-"""Bounds on what a command costs, kept by a parent that waits while its child works."""
+"""Limits of time and memory for a command: a parent process watches a child that does the work."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..support.sinks import wait_for
 from . import options, signals
 from .talk import say
 
-# Seconds in which a child that was told to end can remove what it has not finished.
+# Seconds for a child that got the signal to end to remove unfinished files.
 _GRACE = 3.0
 
 
@@ -37,10 +37,10 @@ def bounded(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def guard(timeout: float | None, max_memory: int | None) -> None:
-    """Go on in a child, in at most so many seconds and MB beside what the program itself takes; the parent waits.
+    """Continue in a child, limited to so many seconds and MB beyond the program's own memory; the parent waits.
 
     The parent does not return: it ends with the child's exit code. Errors: UsageError where the system cannot keep a
-    bound; in the parent, InputError where the child has met one.
+    bound; in the parent, InputError where the child has reached one.
     """
     if not hasattr(os, "fork"):
         raise UsageError("--timeout, --max-memory: only a system that forks keeps bounds")
@@ -48,7 +48,7 @@ def guard(timeout: float | None, max_memory: int | None) -> None:
         raise UsageError("--max-memory: only Linux bounds the memory of a process")
     for stream in (sys.stdout, sys.stderr):
         stream.flush()
-    ends, held = os.pipe()  # which the child holds until it ends
+    ends, held = os.pipe()  # held open by the child until it ends
     child = os.fork()
     if child:
         os.close(held)
@@ -56,14 +56,14 @@ def guard(timeout: float | None, max_memory: int | None) -> None:
     os.close(ends)
     signals.adopt()
     if max_memory is not None:
-        # Before the bound, which does not count them.
+        # Before the limit is set: it does not count these modules.
         import_libraries()
         start_polars()
         limit_address_space(max_memory << 20)
 
 
 def _watch(child: int, ends: int, timeout: float | None, max_memory: int | None) -> NoReturn:
-    """Wait for the end of the child, and end as it did."""
+    """Wait for the child and exit with its code."""
     try:
         late = not wait_for(ends, "read", timeout)
     except BaseException:
@@ -76,7 +76,7 @@ def _watch(child: int, ends: int, timeout: float | None, max_memory: int | None)
     if code >= 0:
         raise click.exceptions.Exit(code)
     if max_memory is not None and -code in (signal.SIGKILL, signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS):
-        raise InputError("needs more memory than --max-memory allows", hint="a larger limit takes it")
+        raise InputError("needs more memory than --max-memory allows", hint="raise the limit")
     say(f"internal error: the process at work was ended by {signal.Signals(-code).name}")
     raise click.exceptions.Exit(INTERNAL)
 

@@ -1,4 +1,4 @@
-"""`curvcli check`: identities, requirements and assertions to an exit code and a report that CI systems read."""
+"""`curvcli check`: check identities, requirements and assertions; write an exit code and a report for CI systems."""
 
 from __future__ import annotations
 
@@ -23,26 +23,24 @@ if TYPE_CHECKING:
 
 FORMATS = ("text", "json", "junit", "sarif", "github")
 
-# What -o says by its suffix when --format says nothing.
+# Format by the suffix of -o where --format is not given.
 _SUFFIXES = {".json": "json", ".xml": "junit", ".sarif": "sarif"}
 
-# Failures told on stderr while the report goes to a file.
+# Number of failures printed on stderr while the report goes to a file.
 _TOLD = 20
 
 
-@click.command("check", short_help="Check identities and requirements: the exit code tells.")
+@click.command("check", short_help="Check identities and requirements for CI, by exit code.")
 @click.argument("meshes", metavar="MESH...", nargs=-1)
 @click.option(
     "--require",
     metavar="NAME[,NAME]",
     multiple=True,
-    help="Require more: closed, oriented, outward, connected, convex, genus=N, euler=N, components=N, "
+    help="Additional requirements: closed, oriented, outward, connected, convex, genus=N, euler=N, components=N, "
     "no-unreferenced, no-duplicate-vertices, minimal=TOL, cmc=TOL; repeatable. By default: manifold, "
     "consistent-winding, no-degenerate, no-duplicate-faces.",
 )
-@click.option(
-    "--allow", metavar="NAME[,NAME]", multiple=True, help="Leave out a requirement or an identity; repeatable."
-)
+@click.option("--allow", metavar="NAME[,NAME]", multiple=True, help="Skip a requirement or an identity; repeatable.")
 @click.option(
     "--assert",
     "asserted",
@@ -58,18 +56,18 @@ _TOLD = 20
     "--format",
     "report_format",
     type=click.Choice(FORMATS),
-    help="Format of the report; by default that of -o's suffix (.json, .xml: junit, .sarif), else text.",
+    help="Format of the report; by default from -o's suffix (.json, .xml: junit, .sarif), else text.",
 )
-@click.option("-o", "--output", metavar="FILE", default="-", help="Write the report there instead of to stdout.")
+@click.option("-o", "--output", metavar="FILE", default="-", help="Write the report to a file instead of stdout.")
 @options.schema
 @options.force
 @options.talking
 @bounded
 def command(meshes: tuple[str, ...], **settings: Any) -> int:
-    """Check each MESH; exit with 0 if everything holds and 1 if something fails.
+    """Check each MESH; exit with 0 if everything holds and with 1 if something fails.
 
-    Checked are the identities that curvatures keep, on the whole and on every component, and what is
-    required of the mesh. A mesh that cannot be read does not stop the rest.
+    The checks are the identities that curvatures keep, on the whole surface and on every component, and the
+    requirements on the mesh. A mesh that cannot be read does not stop the rest.
 
     \b
       curvcli check bunny.ply
@@ -84,7 +82,7 @@ def command(meshes: tuple[str, ...], **settings: Any) -> int:
 
 
 class Run:
-    """One call of `check`: its options checked before any work, then mesh after mesh."""
+    """One call of `check`: check its options before any work, then mesh after mesh."""
 
     def __init__(
         self,
@@ -116,7 +114,7 @@ class Run:
         self.plan = plan(require, allow, asserted, scales)
 
     def all(self) -> int:
-        """Check every mesh, write the report; the exit code."""
+        """Check every mesh and write the report; return the exit code."""
         from ..output.atomic import Outputs
         from ..report.check.model import report_of
 
@@ -133,7 +131,7 @@ class Run:
         return report.exit_code
 
     def one(self, mesh: str) -> CheckedMesh:
-        """What came of one mesh; one that cannot be checked is told on stderr at once."""
+        """Outcome for one mesh; the error of a mesh that cannot be checked is printed on stderr at once."""
         from ..report.check.model import failed_input
 
         trim_heap()  # of the mesh before
@@ -154,7 +152,7 @@ class Run:
             return failed_input(mesh, internal(error), exit_code(error))
 
     def judged(self, mesh: str) -> CheckedMesh:
-        """Load, compute, judge."""
+        """Load the mesh, compute its columns and judge it."""
         from ..analysis.request import Request
         from ..analysis.result import Result, compute
         from ..loading.load import load
@@ -176,7 +174,7 @@ class Run:
             return judge(analysis, self.plan, mesh)
 
     def show(self, report: CheckReport) -> None:
-        """The report on stdout; as text for people, unless everything is to be quiet."""
+        """Print the report on stdout; with -q, not as text."""
         if self.format != "text":
             sys.stdout.buffer.write(self.written(report))
         elif not self.quiet and any(mesh.status != "error" for mesh in report.meshes):
@@ -185,16 +183,16 @@ class Run:
             show(report, self.verbose)
 
     def written(self, report: CheckReport) -> bytes:
-        """The report in the chosen format."""
+        """The report as bytes in the chosen format."""
         return _writer(self.format, self.verbose)(report)
 
     def tell(self, report: CheckReport) -> None:
-        """What failed, and the warnings, on stderr, while the report is in a file."""
+        """Print failures and warnings on stderr while the report goes to a file."""
         from ..report.check.lines import all_failures, warning, warnings
 
         if self.quiet:
             return
-        # A mesh that could not be read has been told already.
+        # The error of a mesh that cannot be read has been printed already.
         failed, others = all_failures([mesh for mesh in report.meshes if mesh.status != "error"], most=_TOLD)
         for line in failed:
             say(line.text)
@@ -206,7 +204,7 @@ class Run:
 
 
 def _writer(report_format: str, verbose: int) -> Callable[[CheckReport], bytes]:
-    """The function that writes a format."""
+    """Function that writes a report in a format."""
     match report_format:
         case "json":
             from ..report.check.model import write_json as writer

@@ -1,4 +1,4 @@
-"""`curvcli compare`: two meshes or reports set against each other; with --map, the map between two surfaces."""
+"""`curvcli compare`: compare two meshes or reports; with --map, measure the map between two surfaces."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 TABLES = ("vertices", "faces")
 # B of --map: the texture coordinates of A.
 TEXTURE = "uv"
-# Options that make sense only without --map, and only with it.
+# Options that need --map, and options that exclude it.
 _DIFFERENCES = (
     *("rtol", "atol", "only", "ignore", "common", "passes", "area", "mean", "orient", "unit", "regions"),
     *("rings", "radius", "normals", "noise", "exact"),
@@ -33,7 +33,7 @@ _CONVENTIONS = (
 )
 
 
-@click.command("compare", short_help="What differs between two meshes or reports; --map: one as a map of the other.")
+@click.command("compare", short_help="Compare two meshes or reports; --map: measure one as a map of the other.")
 @click.argument("a", metavar="A")
 @click.argument("b", metavar="B")
 @click.option(
@@ -41,21 +41,23 @@ _CONVENTIONS = (
     type=options.Finite(0),
     default=1e-9,
     show_default=True,
-    help="How far a value may move, relative to its size; 0: to the last bit.",
+    help="Relative tolerance; 0: equal to the last bit.",
+)
+@click.option("--atol", type=options.Finite(0), default=0.0, show_default=True, help="Absolute tolerance.")
+@click.option(
+    "--only", metavar="KEY", multiple=True, help="Compare only these keys, such as totals or 'columns.K*'; repeatable."
+)
+@click.option("--ignore", metavar="KEY", multiple=True, help="Skip these keys, such as 'warnings.*'; repeatable.")
+@click.option(
+    "--common",
+    is_flag=True,
+    help="Compare only keys that both have; otherwise a missing key is a difference.",
 )
 @click.option(
-    "--atol", type=options.Finite(0), default=0.0, show_default=True, help="How far a value may move besides."
+    "--exact", is_flag=True, help="B is a table of exact values: print error norms. Tables of `sample` imply it."
 )
 @click.option(
-    "--only", metavar="KEY", multiple=True, help="Compare only this, such as totals or 'columns.K*'; repeatable."
-)
-@click.option("--ignore", metavar="KEY", multiple=True, help="Leave this out, such as 'warnings.*'; repeatable.")
-@click.option("--common", is_flag=True, help="Compare what both have; else what only one has is a difference.")
-@click.option(
-    "--exact", is_flag=True, help="The table holds exact values: tell the norms of the errors. Known of `sample`'s."
-)
-@click.option(
-    "--map", "as_map", is_flag=True, help="A → B as a map on the same faces, or to A's texture (uv): its distortion."
+    "--map", "as_map", is_flag=True, help="Measure A → B, or A to its texture (B = uv), as a map on the same faces."
 )
 @click.option(
     "-o",
@@ -87,15 +89,15 @@ _CONVENTIONS = (
 @options.talking
 @bounded
 def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
-    """What differs between A and B beyond tolerance: topology, totals, checks, columns. Exits with 1 if anything does.
+    """Compare A with B beyond tolerance: topology, totals, checks, columns. Exits with 1 if anything differs.
 
     A and B are meshes, reports (.json) or vertex tables (.csv .tsv .parquet) of `curvcli analyze`. A mesh
-    against a report or a table is analysed with the passes and conventions found there, as far as none
-    are given: so a stored report guards a mesh in CI. Two meshes with equally many vertices are
-    compared vertex by vertex too.
+    is analysed with the passes and conventions of the report or table on the other side, unless you give
+    them: a stored report guards a mesh in CI. Two meshes with equally many vertices are also compared
+    vertex by vertex.
 
-    A value has moved when it did by more than atol + rtol · its size, and more than rounding explains;
-    values that can cancel are measured by their terms.
+    A value differs if its change exceeds atol + rtol · its size and a bound on the rounding error. For
+    values that can cancel, size means the size of their terms.
 
     A mesh against a table of exact values (of `curvcli sample NAME -o MESH.ply -o EXACT.csv`, or any with
     --exact): error norms of every column that has one, weighted by area; K_* are set against K_density,
@@ -103,12 +105,11 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     if a relative L2 error is above it.
 
     With --map: the map that sends each vertex of A to the vertex of the same index of B, linear on faces.
-    Tells its Dirichlet energy, the area of its image, its non-conformality (0 for conformal maps), the
-    singular values σ₁ ≥ σ₂ ≥ 0 on every face, and how far it is from harmonic. A and B must have the
-    same faces. Tells which faces are turned over: into a plane by the sign of det df, in space against
-    their neighbours. With B = uv, the map to A's own texture coordinates: A is cut open along the seams of
-    its texture, which are counted, and the energy is the sum over the faces. Exits with 1 when an identity
-    fails.
+    The report has its Dirichlet energy, the area of its image, its non-conformality (0 for conformal maps),
+    the singular values σ₁ ≥ σ₂ ≥ 0 on every face, and its distance from harmonic. A and B must have the same
+    faces. Flipped faces are counted: into a plane by the sign of det df, in space against their neighbours.
+    With B = uv, the map goes to A's own texture coordinates: A is cut open along the seams of its texture,
+    which are counted, and the energy is the sum over the faces. Exits with 1 when an identity fails.
 
     \b
       curvcli compare bunny.obj bunny.json
@@ -152,7 +153,7 @@ def compare_map(
     verbose: int,
     **limits: Any,
 ) -> int:
-    """A → B as a map: options are checked, both surfaces read, the map measured and told; the exit code."""
+    """Check the options, read both surfaces, measure the map A → B, write and print it; return the exit code."""
     from ..output.atomic import Outputs
     from ..output.tables.write import parse_precision
     from ..report.maps import build

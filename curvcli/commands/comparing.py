@@ -1,4 +1,4 @@
-"""What `curvcli compare` does without --map: both sides read, set against each other, and told."""
+"""`curvcli compare` without --map: read both sides, compare them, write and print the differences."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def compare(
     max_bytes: int | None,
     **conventions: Any,
 ) -> int:
-    """The exit code: 1 if anything differs. given: the conventions that stand whatever a stored side was made with."""
+    """Return the exit code: 1 if anything differs. given: conventions that override those of a stored side."""
     import msgspec
 
     from ..analysis.configuration import configured
@@ -100,7 +100,7 @@ def _compare(
     if a.report is not None and b.report is not None:
         found, compared = compare_reports(a.report, b.report, tolerance, wanted, common=common)
         if any(one.key.startswith("conventions.") for one in found):
-            notes.append("the conventions differ, and with them what the numbers mean")
+            notes.append("the conventions differ, so the numbers mean different things")
     if a.cells is not None and b.cells is not None and (only or wanted("vertices")):
         counts = [len(next(iter(side.cells.values()))) for side in (a, b)]  # type: ignore[union-attr]
         if counts[0] == counts[1]:
@@ -116,9 +116,9 @@ def _compare(
 
 
 def _exact(a: str, b: str, limits: dict[str, Any], exact: bool) -> tuple[str, Read | None]:
-    """The mesh and the table of exact values that it is set against, if that is what the two are.
+    """A mesh and the table of exact values to compare it with; no table if the two sides are something else.
 
-    exact: whatever the table looks like. Errors: UsageError where there is none.
+    exact: accept any table as exact values. Errors: UsageError where there is none.
     """
     for mesh, table in ((a, b), (b, a)):
         if (kind_of(mesh), kind_of(table)) == ("mesh", "table"):
@@ -126,5 +126,5 @@ def _exact(a: str, b: str, limits: dict[str, Any], exact: bool) -> tuple[str, Re
             if exact or is_exact(known.cells or {}):
                 return mesh, known
     if exact:
-        raise UsageError("--exact wants a mesh and a table (.csv .tsv .parquet) of exact values")
+        raise UsageError("--exact needs a mesh and a table (.csv .tsv .parquet) of exact values")
     return a, None

@@ -12,18 +12,18 @@ import click
 from ..errors import UsageError
 from .nearest import SHARED, search
 
-# Where the context remembers which file applied, and which tables it has.
+# Keys under which the context keeps the configuration file that applies, and its tables.
 META = "curvcli.configuration"
 
-# Bytes of a configuration, and parts of a dotted key: far more than any has.
+# Largest size of a configuration in bytes, and most parts of a dotted key: far more than any needs.
 _LARGEST, _DEEPEST = 1 << 20, 64
 _QUOTED, _BETWEEN_KEYS = re.compile(rb"\"[^\"]*\"|'[^']*'"), re.compile(rb"[,=#\[\]{}]")
 
-# Options that do something else than set a default.
+# Options that set no default.
 _NOT_DEFAULTS = ("help", "schema")
 
-# What only the command line may name, by the names of the parameters: files that are written, files and addresses that
-# are read, and the leave to overwrite. A configuration may have come with a download.
+# Parameters that only the command line may set: files that are written, files and addresses that are read, and
+# --force. A configuration may have come with a download.
 _OUTPUTS = ("output", "outputs", "folder", "tables", "force")
 _INPUTS = ("files_from", "scheduler")
 
@@ -31,7 +31,7 @@ Find = Callable[[str], click.Command | None]
 
 
 def configure(context: click.Context, given: str | None, find: Find, without: bool = False) -> None:
-    """Take the defaults of the commands from the file given, or from the nearest one, if there is any.
+    """Take the defaults of the commands from the file given, or else from the nearest one.
 
     find: a command by its name. without: no file applies. Errors: UsageError for a file that cannot be read, an unknown
     table or key (with the nearest), a value of the wrong type, a key that only the command line may set.
@@ -48,7 +48,7 @@ def configure(context: click.Context, given: str | None, find: Find, without: bo
 
 
 def _here() -> str | None:
-    """The working folder; None where somebody has removed it, which then has no configuration."""
+    """The working folder; None if it was removed: it then has no configuration."""
     try:
         return os.getcwd()
     except OSError:
@@ -56,7 +56,7 @@ def _here() -> str | None:
 
 
 def nearest(folder: str) -> str | None:
-    """The nearest curvcli.toml, or pyproject.toml that speaks of curvcli, in a folder or one above it."""
+    """The nearest curvcli.toml, or pyproject.toml with [tool.curvcli], in a folder or one above it."""
     return search(folder, _table)
 
 
@@ -93,7 +93,7 @@ def _table(path: str) -> dict[str, Any] | None:
 
 
 def _check_size(path: str, text: bytes) -> None:
-    """Errors: UsageError for what takes memory and time out of proportion: a key of n parts takes their square."""
+    """Errors: UsageError for long dotted keys: parsing n parts takes n² time and memory."""
     if len(text) > _LARGEST:
         raise UsageError(f"{path}: more than {_LARGEST >> 10} kB, which no configuration needs")
     for number, line in enumerate(text.splitlines(), 1):
@@ -104,7 +104,7 @@ def _check_size(path: str, text: bytes) -> None:
 
 
 def heading(path: str, command: str) -> str:
-    """How a command's table is headed in a file."""
+    """Heading of a command's table in a configuration file."""
     return f"[tool.curvcli.{command}]" if os.path.basename(path) == SHARED else f"[{command}]"
 
 
@@ -141,7 +141,7 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
 
 
 def _refuse(name: str, value: Any, place: str) -> None:
-    """Errors: UsageError for what only the command line may set."""
+    """Errors: UsageError for a parameter that only the command line may set."""
     if name in _OUTPUTS:
         raise UsageError(f"{place}: a configuration names no outputs and overwrites none; give it on the command line")
     if name in _INPUTS:

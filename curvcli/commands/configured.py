@@ -1,4 +1,4 @@
-"""What is said of the configuration file that applies: with -v, where a command refuses, and in every verdict."""
+"""Notes about the configuration file that applies: with -v, in a refusal, and in every verdict."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .talk import say
 if TYPE_CHECKING:
     from ..analysis.configuration import Configuration
 
-# Options on which no verdict depends, by the names of their parameters; every other one is named in the verdict.
+# Options that no verdict depends on, by the names of their parameters; every other one is named in the verdict.
 _HARMLESS = {
     *("quiet", "verbose", "as_json", "get", "stream_format", "report_format", "precision", "unit", "save", "jobs"),
     *("resume", "color_by", "cmap", "value_range", "view", "up", "size", "background", "edges_on", "quality"),
@@ -22,7 +22,7 @@ _HARMLESS = {
 
 
 def tell(context: click.Context) -> None:
-    """Say on stderr which file applies to a command."""
+    """Print on stderr the configuration file that applies to a command."""
     path, tables = context.meta.get(META, (None, {}))
     if path is not None:
         name = context.command.name or ""
@@ -31,7 +31,7 @@ def tell(context: click.Context) -> None:
 
 
 def blamed(context: click.Context, error: click.UsageError | UsageError) -> click.UsageError | UsageError:
-    """The refusal of a command's options, with a word on which of them the file sets."""
+    """An error in a command's options, with a note on the options that the file sets."""
     path, tables = context.meta[META]
     name = context.invoked_subcommand or ""
     keys = ", ".join(tables.get(name, {}))
@@ -44,7 +44,7 @@ def blamed(context: click.Context, error: click.UsageError | UsageError) -> clic
 
 
 def configuration(context: click.Context | None = None) -> Configuration | None:
-    """What the file sets, and the command line leaves, of what a verdict can depend on; None where that is nothing."""
+    """Options that the file sets, the command line does not, and a verdict can depend on; None if there are none."""
     context = context or click.get_current_context(silent=True)
     path, tables = (None, {}) if context is None else context.meta.get(META, (None, {}))
     if context is None or path is None:

@@ -1,4 +1,4 @@
-"""`curvcli curves`: boundary loops and polylines as space curves."""
+"""`curvcli curves`: measure boundary loops and polylines as space curves."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ TABLES = ("curves", "vertices", "links")
     type=click.IntRange(0),
     default=20_000,
     show_default=True,
-    help="Largest double sum, in edges: writhe and linking of curves beyond it, smallest first, are left undefined.",
+    help="Largest double sum, in edges: writhe and linking beyond it are left undefined, largest curves first.",
 )
 @options.precision
 @options.weld
@@ -62,11 +62,11 @@ TABLES = ("curves", "vertices", "links")
 @options.talking
 @bounded
 def command(file: str, **settings: Any) -> int:
-    """Length, turning, torsion, frames, writhe, linking and holonomy of the boundary loops and `l` records of FILE.
+    """Measure the boundary loops and `l` records of FILE: length, turning, torsion, writhe, linking, holonomy.
 
-    Records that share ends are joined, in any order and direction; where more than two edges meet, curves end. A
-    polyline whose last index is its first is closed. Boundary loops run with the surface on their left
-    and have geodesic and normal curvature too. Exits with 3 when FILE has neither.
+    Records that share ends are joined, in any order and direction; curves end where more than two edges meet.
+    A polyline whose last index is its first is closed. Boundary loops run with the surface on their left and
+    also have geodesic and normal curvature. Exits with 3 when FILE has neither loops nor records.
 
     \b
       curvcli curves mesh.obj
@@ -94,7 +94,7 @@ def measure(
     verbose: int,
     **limits: Any,
 ) -> int:
-    """Check the options, read the file, measure its curves, write and tell; the exit code."""
+    """Check the options, read the file, measure its curves, write and print them; return the exit code."""
     import msgspec
 
     from ..analysis.configuration import configured

@@ -1,4 +1,4 @@
-"""`curvcli help`: topics beyond the options of the commands."""
+"""`curvcli help`: print topics beyond the options of the commands."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 @click.command("help", short_help="Explain a topic or a command; without one, list the topics.")
 @click.argument("topic", required=False)
 def command(topic: str | None) -> int:
-    """Explain TOPIC: conventions, checks, formats, exit codes and more, or a command; without it, list them.
+    """Explain TOPIC: conventions, checks, formats, exit codes and more, or a command. Without it, list the topics.
 
     \b
       curvcli help
@@ -34,7 +34,7 @@ def command(topic: str | None) -> int:
 
 
 def overview(topics: dict[str, Topic]) -> None:
-    """List the topics."""
+    """Print the list of topics."""
     formatter = click.HelpFormatter(width=100)
     with formatter.section("Topics, `curvcli help TOPIC`"):
         formatter.write_dl([(name, topic.summary) for name, topic in topics.items()])
@@ -44,9 +44,9 @@ def overview(topics: dict[str, Topic]) -> None:
 
 
 def of_command(name: str, topics: dict[str, Topic]) -> None:
-    """The help of a command.
+    """Print the help of a command.
 
-    Errors: click.UsageError for what is neither a topic nor a command, with the nearest.
+    Errors: click.UsageError, with a suggestion, for a name that is neither a topic nor a command.
     """
     from ..support.words import suggestion
     from .main import cli

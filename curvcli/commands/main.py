@@ -1,4 +1,4 @@
-"""The entry point: finds the command without importing the others, and turns causes into exit codes."""
+"""Entry point: import the command that is run, without the others, and turn errors into exit codes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from .talk import internal, say
 
 @contextmanager
 def _aborting() -> Iterator[None]:
-    """An interrupt is told once, without the blank line that click puts before it."""
+    """Print one line for an interrupt, without the blank line that click prints before it."""
     try:
         yield
     except KeyboardInterrupt:
@@ -47,10 +47,10 @@ def _aborting() -> Iterator[None]:
 
 
 class LazyGroup(click.Group):
-    """A group whose commands are imported when they are named."""
+    """Group that imports a command when it is named."""
 
     def make_context(self, *arguments: Any, **settings: Any) -> click.Context:
-        """Read the options; interrupted as in `invoke`."""
+        """Read the options; handle interrupts as `invoke` does."""
         with _aborting():
             return super().make_context(*arguments, **settings)
 
@@ -67,14 +67,14 @@ class LazyGroup(click.Group):
                 and name
                 and (own := self.get_command(ctx, name))
             ):
-                # The parser of click, which misses the value of an option, does not say whose option it is.
+                # click's parser finds that a value is missing, but its error does not name the command.
                 error.ctx = click.Context(own, parent=ctx, info_name=name)
             if META in ctx.meta:
                 raise blamed(ctx, error) from error
             raise
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """The commands in the order of the help."""
+        """Commands in the order of the help."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
@@ -91,7 +91,7 @@ class LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Name the nearest commands when there is no such command."""
+        """Suggest the nearest commands when there is no such command."""
         name = args[0] if args else ""
         if name and not name.startswith("-") and name not in COMMANDS:
             from ..support.words import suggestion
@@ -113,22 +113,22 @@ class LazyGroup(click.Group):
 @click.option(
     "--config",
     metavar="FILE",
-    help="Defaults of options, one table per command; else [tool.curvcli] of the nearest pyproject.toml, or "
+    help="Defaults of options, one table per command; default: [tool.curvcli] of the nearest pyproject.toml, or "
     "curvcli.toml, in this folder or above, up to the repository's root or the home folder.",
 )
-@click.option("--no-config", is_flag=True, help="Take no defaults from any file.")
+@click.option("--no-config", is_flag=True, help="Ignore configuration files.")
 def cli(config: str | None, no_config: bool) -> None:
-    """Curvatures of triangle meshes (OBJ, PLY, STL) that keep their integral relations exactly.
+    """Curvatures of triangle meshes (OBJ, PLY, STL) with exact integral identities.
 
-    Gauss and mean curvature, areas and Willmore energies at every vertex, after J. M. Sullivan,
-    Curvatures of Smooth and Discrete Surfaces; each with the identity that proves it, checked.
+    Gauss and mean curvature, areas and Willmore energies at every vertex, after J. M. Sullivan, Curvatures of
+    Smooth and Discrete Surfaces. Every run checks the identities that prove them.
 
     \b
       curvcli analyze bunny.obj                      a summary with its checks
       curvcli analyze bunny.obj -o k.csv -o k.ply    a table and a coloured mesh
-      curvcli check bunny.obj --require closed       what holds and what fails
-      curvcli passes                                 every quantity there is
-      curvcli sample torus -o torus.ply              a surface to try it on
+      curvcli check bunny.obj --require closed       pass or fail, for CI
+      curvcli passes                                 list every quantity
+      curvcli sample torus -o torus.ply              a test surface
       curvcli help                                   topics, such as conventions
     """
 
@@ -136,9 +136,9 @@ def cli(config: str | None, no_config: bool) -> None:
 def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
     """Run curvcli and exit with the code of the interface.
 
-    early: what has listened for Ctrl-C so far, and `heard` holds what it heard.
+    early: the handler that has listened for Ctrl-C so far; `heard` holds the signals it got.
     """
-    # All our matrices are small: threads would only reserve memory, with many processors more than a limit allows.
+    # All our matrices are small: BLAS threads would only reserve memory, with many processors more than a limit allows.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     complete()
     ending = Ending()
@@ -156,33 +156,33 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
         code = explain(error) if ending.number is None else interrupted(ending)
     ending.too_late()
     refusal = settle(ending.number is not None)
-    if refusal is not None and code in (OK, FAILED_CHECK, INPUT):  # nobody has told it
+    if refusal is not None and code in (OK, FAILED_CHECK, INPUT):  # not reported yet
         code = explain(refusal)
     sys.exit(code)
 
 
 def interrupted(ending: Ending) -> int:
-    """Say so; the exit code."""
+    """Print that the program was interrupted; return the exit code."""
     if not ending.adopted:
         say("interrupted")
     return ending.code
 
 
 def explain(error: BaseException) -> int:
-    """Say in one line why the program ends; the exit code."""
+    """Print in one line why the program ends; return the exit code."""
     if is_bounded() and is_out_of_memory(error):
-        error = InputError("needs more memory than --max-memory allows", hint="a larger limit takes it")
+        error = InputError("needs more memory than --max-memory allows", hint="raise the limit")
     match error:
         case click.exceptions.Exit():
             return error.exit_code
-        case SystemExit(code=None | int() as code):  # click ends so when it has completed a line of the shell
+        case SystemExit(code=None | int() as code):  # the exit of click's shell completion
             return code or OK
         case click.exceptions.NoArgsIsHelpError():
             click.echo(error.format_message(), err=True)
             return USAGE
         case click.UsageError():
             path = error.ctx.command_path if error.ctx else "curvcli"
-            say(f"{error.format_message().rstrip('.')}; `{path} --help` tells more")
+            say(f"{error.format_message().rstrip('.')}; `{path} --help` explains the options")
             return USAGE
         case click.ClickException():
             say(error.format_message())
@@ -194,7 +194,7 @@ def explain(error: BaseException) -> int:
             say("interrupted")
             return INTERRUPTED
     if is_out_of_memory(error):
-        say("out of memory; a machine with more memory, or a smaller mesh, is needed")
+        say("out of memory; use a machine with more memory or a smaller mesh")
     else:
         say(internal(error))
     return INTERNAL

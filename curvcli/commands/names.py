@@ -1,13 +1,13 @@
-"""Names of the commands, and the variable that asks for a completion."""
+"""Names of the commands, and the environment variable of shell completion."""
 
 from __future__ import annotations
 
 COMMANDS = ("analyze", "batch", "check", "compare", "curves", "passes", "sample", "help", "completion")
 
 
-# These tell and set up; no configuration concerns them, and a broken one does not stop them.
+# Commands without configuration: a broken file does not stop them.
 UNCONFIGURED = ("help", "completion")
 
 
-# With this variable set the program completes a line of the shell; see `curvcli completion`.
+# With this variable set the program completes a command line; see `curvcli completion`.
 COMPLETE = "_CURVCLI_COMPLETE"

@@ -1,4 +1,4 @@
-"""Which configuration file applies where none is named: the nearest one that belongs to who works here."""
+"""Search for the configuration file that applies where none is named."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from typing import Any
 
 OWN, SHARED = "curvcli.toml", "pyproject.toml"
 
-# Marks the root of a repository; a file in worktrees and submodules.
+# Mark of a repository's root; a file in worktrees and submodules.
 _REPOSITORY = ".git"
 
 
 def search(here: str, table: Callable[[str], Any]) -> str | None:
-    """The nearest curvcli.toml, or pyproject.toml that speaks of curvcli, in a folder or one above it.
+    """The nearest curvcli.toml, or pyproject.toml with [tool.curvcli], in a folder or one above it.
 
-    The search ends at the root of the repository, else at the home folder, and before a folder above where everybody
-    may write, such as /tmp. table: what a pyproject.toml says of curvcli.
+    The search ends at the root of the repository, else at the home folder, and before a world-writable folder above,
+    such as /tmp. table: returns the [tool.curvcli] table of a pyproject.toml.
     """
     home = os.path.realpath(os.path.expanduser("~"))
     while True:

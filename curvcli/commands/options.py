@@ -1,4 +1,4 @@
-"""Every option that more than one command has, once."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
 class Finite(click.FloatRange):
-    """A number within bounds; click takes NaN for one."""
+    """Finite number within bounds; click's own accepts NaN."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The number."""
+        """The number as a float."""
         number = super().convert(value, param, ctx)
         if not math.isfinite(number):
             self.fail(f"{number} is not a finite number.", param, ctx)
@@ -43,12 +43,12 @@ def _schema(context: click.Context, option: click.Parameter, value: bool) -> Non
         context.exit()
 
 
-as_json = click.option("--json", "as_json", is_flag=True, help="The report as JSON on stdout.")
+as_json = click.option("--json", "as_json", is_flag=True, help="Print the report as JSON on stdout.")
 
 
 def get(example: str) -> Decorator:
-    """`--get`, which may be asked for more than one value."""
-    text = f"One value of the report on stdout, such as {example}; repeatable, a line for each."
+    """Option `--get`; may be repeated."""
+    text = f"Print one value of the report, such as {example}; repeatable, a line for each."
     return click.option("--get", metavar="KEY", multiple=True, help=text)
 
 
@@ -62,11 +62,15 @@ schema = click.option(
     is_eager=True,
     expose_value=False,
     callback=_schema,
-    help="Print the JSON Schema of the JSON output and stop.",
+    help="Print the JSON Schema of the JSON output and exit.",
 )
-quiet = click.option("-q", "--quiet", is_flag=True, help="Say nothing but errors.")
+quiet = click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
 verbose = click.option(
-    "-v", "--verbose", count=True, callback=_verbosity, help="Say more, such as which file configures; -vv: tracebacks."
+    "-v",
+    "--verbose",
+    count=True,
+    callback=_verbosity,
+    help="Print more, e.g. the configuration file used; -vv: tracebacks.",
 )
 force = click.option("--force", is_flag=True, help="Overwrite outputs that exist.")
 passes = click.option(
@@ -83,14 +87,14 @@ area = click.option(
     type=click.Choice(["barycentric", "mixed", "voronoi"]),
     default="barycentric",
     show_default=True,
-    help="Area of the vertex that K_density divides by.",
+    help="Vertex area that K_density divides by.",
 )
 mean = click.option(
     "--mean",
     type=click.Choice(["sum", "average"]),
     default="sum",
     show_default=True,
-    help="Whether H is k1 + k2 (2/r on a sphere) or their average.",
+    help="Convention for H: k1 + k2 (2/r on a sphere) or their average.",
 )
 orient = click.option(
     "--orient",
@@ -105,18 +109,19 @@ weld = click.option(
     metavar="auto|none|exact|TOL",
     default="auto",
     show_default=True,
-    help="Merge vertices at equal positions; auto: STL exact, OBJ and PLY not; TOL: relative to the bounding box.",
+    help="Merge vertices at equal positions; auto: exact for STL, none for OBJ and PLY; TOL: relative to the bounding "
+    "box.",
 )
 regions = click.option(
     "--regions",
     metavar="FILE|groups|objects|materials|PROPERTY",
-    help="One label per face: every integral and every check is then taken per region too.",
+    help="Labels of the faces: totals and checks are also computed per region.",
 )
 
 
 def _printable(_context: click.Context, _option: click.Parameter, name: str | None) -> str | None:
     if name is not None and not name.isprintable():
-        raise click.BadParameter(f"{name!r} holds what cannot be printed")
+        raise click.BadParameter(f"{name!r} has characters that cannot be printed")
     return name
 
 
@@ -124,18 +129,18 @@ unit = click.option(
     "--unit", metavar="NAME", callback=_printable, help="Name of the unit of length, for tables and legends."
 )
 input_format = click.option(
-    "--input-format", type=click.Choice(["obj", "ply", "stl"]), help="Format of the input, whatever its name."
+    "--input-format", type=click.Choice(["obj", "ply", "stl"]), help="Format of the input, overriding its suffix."
 )
 max_faces = click.option("--max-faces", type=click.IntRange(1), help="Refuse meshes with more polygons than this.")
 max_bytes = click.option("--max-bytes", type=click.IntRange(1), help="Refuse files larger than this, unpacked.")
 timeout = click.option(
-    "--timeout", metavar="SECONDS", type=Finite(0, 1e9, min_open=True), help="Give up what takes longer."
+    "--timeout", metavar="SECONDS", type=Finite(0, 1e9, min_open=True), help="Stop a command that takes longer."
 )
 max_memory = click.option(
     "--max-memory",
     metavar="MB",
     type=click.IntRange(512, 1 << 40),
-    help="Give up what needs more than this beside the program itself. Linux only.",
+    help="Stop a command that needs more memory than this beyond the program itself. Linux only.",
 )
 strict = click.option("--strict", is_flag=True, help="Exit with 1 when a check fails.")
 
@@ -155,14 +160,14 @@ estimating = together(
     click.option(
         "--rings",
         metavar="N[,N]",
-        help="How far estimates (K_ring, K_corrected, K_fit and so on) look, in rings of edges; several give one "
+        help="Neighbourhood of estimates (K_ring, K_corrected, K_fit and so on), in rings of edges; several give one "
         "column for each.  [default: 2]",
     ),
     click.option(
         "--radius",
         metavar="R[,R]",
-        help="The same as a radius: a length, or mean edge lengths such as 3e. With --rings or --radius and without "
-        "-p, the preset estimates is added to core.",
+        help="Neighbourhood as a radius: a length, or mean edge lengths such as 3e. With --rings or --radius and "
+        "without -p, the preset estimates is added to core.",
     ),
     click.option(
         "--normals",
@@ -175,7 +180,7 @@ estimating = together(
         "--noise",
         type=Finite(0),
         metavar="SIGMA",
-        help="Standard deviation of each coordinate, for K_sigma and h_sigma, which it adds to core where -p is not "
+        help="Standard deviation of each coordinate, for K_sigma and h_sigma; adds both to core if -p is not "
         "given.  [default: the precision of the file]",
     ),
 )
@@ -183,7 +188,7 @@ drawing = together(
     click.option(
         "--color-by",
         metavar="COLUMN[,COLUMN]",
-        help="Columns of pictures, a panel each, and of histograms; the first one colours a mesh, and a page at first.",
+        help="Columns of pictures and histograms, a panel each; the first one colours meshes and pages.",
     ),
     click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis."),
     click.option(
@@ -194,31 +199,35 @@ drawing = together(
         metavar="iso|front|top|fit|AZ,EL",
         default="iso",
         show_default=True,
-        help="From where a picture is taken: azimuth and elevation in degrees; fit: along the direction in which the "
-        "surface is thinnest.",
+        help="Direction of view of a picture: azimuth and elevation in degrees; fit: along the direction in which "
+        "the surface is thinnest.",
     ),
     click.option(
         "--up",
         type=click.Choice(["y", "z"]),
         default="z",
         show_default=True,
-        help="The axis that a picture has upwards.",
+        help="Axis that points up in a picture.",
     ),
     click.option("--size", metavar="WxH", help="Pixels of a picture.  [default: 1200x900, more for several panels]"),
     click.option(
-        "--background", metavar="COLOR", default="white", show_default=True, help="Behind a picture: a name or #rrggbb."
+        "--background",
+        metavar="COLOR",
+        default="white",
+        show_default=True,
+        help="Background of a picture: a name or #rrggbb.",
     ),
     click.option("--edges-on", is_flag=True, help="Draw the edges of all faces in a picture."),
-    click.option("--quality", is_flag=True, help="Write the colouring column of .ply as `quality` too, for MeshLab."),
+    click.option("--quality", is_flag=True, help="Also write the colouring column of .ply as `quality`, for MeshLab."),
 )
 reading = together(area, mean, orient, weld, unit, input_format, max_faces, max_bytes)
 talking = together(quiet, verbose)
 
 
 def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appearance:
-    """How outputs look, by the options of `drawing`, which are taken out of the settings.
+    """Appearance of outputs from the options of `drawing`, which are removed from the settings.
 
-    Errors: UsageError for a size that is none.
+    Errors: UsageError for an invalid size.
     """
     from ..output.appearance import Appearance
     from ..output.pictures.framing import Look, parse_size
@@ -232,9 +241,9 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
 
 
 def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str], list[str]]:
-    """The columns asked for by -p and the options of `estimating`, by their names, and these at each scale.
+    """Columns asked for by -p and the options of `estimating`: their names, and the names at each scale.
 
-    Errors: UsageError for an unknown name or a scale that is none.
+    Errors: UsageError for an unknown name or an invalid scale.
     """
     from ..curvatures.catalogue import at_scales, defaults, resolve
     from ..mesh.scale import DEFAULTS, Settings, parse_scales

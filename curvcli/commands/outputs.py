@@ -1,4 +1,4 @@
-"""Which streams and outputs a command reads and writes, from its meshes, -o, --table, --format, --json and --get."""
+"""Streams and outputs of a command, from its meshes, -o, --table, --format, --json and --get."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ class Wanted:
 
 
 def table_option(text: str, known: Collection[str]) -> tuple[str, str]:
-    """The kind and the path of --table KIND=PATH.
+    """Kind and path of --table KIND=PATH.
 
-    Errors: UsageError for an unknown kind, with those there are.
+    Errors: UsageError for an unknown kind, with the known ones.
     """
     kind, equals, path = text.partition("=")
     if not equals or not path:
@@ -42,7 +42,7 @@ def table_option(text: str, known: Collection[str]) -> tuple[str, str]:
 def tables_and_reports(
     outputs: tuple[str, ...], tables: tuple[str, ...], known: Collection[str], stream_format: str | None
 ) -> list[Wanted]:
-    """Every output of a command that writes tables and a report; -o writes the table of vertices.
+    """Outputs of a command that writes tables and a report; -o writes the table of vertices.
 
     known: the kinds of tables. Errors: UsageError for a suffix or a kind that is not known.
     """
@@ -62,23 +62,23 @@ def tables_and_reports(
 
 
 def one_stdout(paths: Iterable[str], as_json: bool, get: tuple[str, ...], stream_format: str | None) -> bool:
-    """Whether an output goes to stdout.
+    """True if an output goes to stdout.
 
-    Errors: click.UsageError when two things want stdout, or a format is typed for an output that is not there.
+    Errors: click.UsageError for two outputs on stdout, or a format without `-o -`.
     """
     context = click.get_current_context()
     taken = "-" in paths
     if as_json and get:
-        raise click.UsageError("--json and --get both want stdout; choose one", context)
+        raise click.UsageError("--json and --get both write to stdout; choose one", context)
     if taken and (as_json or get):
-        raise click.UsageError("-o - and --json or --get both want stdout; choose one", context)
+        raise click.UsageError("-o - and --json or --get both write to stdout; choose one", context)
     if not taken and context.get_parameter_source("stream_format") is ParameterSource.COMMANDLINE:
         raise click.UsageError(f"--format {stream_format} names the format of `-o -`, which is not given", context)
     return taken
 
 
 def stdin_once(meshes: Sequence[str]) -> None:
-    """Errors: click.UsageError where `-` stands for several meshes: what has been read is gone."""
+    """Errors: click.UsageError where `-` stands for several meshes: stdin can be read only once."""
     if meshes.count("-") > 1:
         raise click.UsageError("`-` is given twice, but stdin can be read once only", click.get_current_context())
 
@@ -86,7 +86,7 @@ def stdin_once(meshes: Sequence[str]) -> None:
 def tell(
     report: Callable[[], Any], summary: Callable[[], None], as_json: bool, get: tuple[str, ...], quiet: bool
 ) -> None:
-    """What goes to stdout: the report as plain values, some values of it, or else the summary, which prints itself."""
+    """Print the report as JSON, some values of it, or the summary."""
     if as_json:
         from ..report.model import encode
 

@@ -1,4 +1,4 @@
-"""`curvcli passes`: every quantity, or all about one."""
+"""`curvcli passes`: list every quantity, or explain one."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from . import options
 
 @click.command("passes", short_help="List every quantity, or explain one.")
 @click.argument("name", required=False)
-@click.option("--json", "as_json", is_flag=True, help="As JSON.")
-@click.option("--markdown", is_flag=True, help="The documentation page of all quantities.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.option("--markdown", is_flag=True, help="Print the documentation page of all quantities.")
 @options.schema
 def command(name: str | None, as_json: bool, markdown: bool) -> None:
-    """Every quantity with its symbol, formula, kind and unit, and which curvature to take; with NAME, all about one.
+    """List every quantity with its symbol, formula, kind and unit, and advice for choosing one; or explain NAME.
 
     Measures (K, H_vec, A) are exact in sum. At a point of a smooth surface take K_fit and h_fit on clean irregular
     meshes, K_density, h or *_corrected on regular grids, K_corrected and h_corrected on folded shapes and, at a radius
     above the noise, on scans; K_ring and h_ring average the measures.
-    `curvcli help estimates` tells when to use which, in five sentences and one table.
+    `curvcli help estimates` has five sentences and one table on when to use each.
     """
     if markdown:
         from ..report.quantities import page

@@ -1,4 +1,4 @@
-"""What is going on, on stderr, and how long it took."""
+"""Progress of the work and its time, on stderr."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass
 class Phase:
-    """A phase of the work and the seconds it took."""
+    """Phase of the work and the seconds it took."""
 
     seconds: float = 0.0
 

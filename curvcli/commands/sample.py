@@ -1,4 +1,4 @@
-"""`curvcli sample`: test surfaces made by formulas, with what is exactly known about them."""
+"""`curvcli sample`: write test surfaces from formulas, with their exact curvatures."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
     help="Write .obj .ply .stl .vtp .vtu .glb (the mesh; .ply .vtp .vtu with exact curvatures) or .csv .tsv .parquet "
     ".npz (their table); repeatable. `-` is stdout.",
 )
-@click.option("--size", type=click.IntRange(4), help="Wanted number of vertices, about.")
+@click.option("--size", type=click.IntRange(4), help="Approximate number of vertices.")
 @click.option("--scale", type=float, default=1.0, show_default=True, help="Multiply all lengths.")
-@click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, help="A parameter of the surface.")
+@click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, help="Set a parameter of the surface.")
 @click.option("--ascii", "ascii_stl", is_flag=True, help="Write .stl as text, which keeps doubles.")
 @options.stream_format
 @options.force
@@ -49,7 +49,7 @@ def command(
 ) -> None:
     """Make the surface NAME, with a table of its exact curvatures where they are known.
 
-    Without NAME, lists all surfaces; without -o, tells what is known about one.
+    Without NAME, lists all surfaces; without -o, prints the exact values of one.
 
     \b
       curvcli sample
@@ -125,7 +125,7 @@ def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool, quiet: b
         write_stl_text(stream, made.points, made.faces)
     elif suffix in suffixes(("mesh", "triangles")):
         comments = [f"curvcli sample {made.name}: {made.description}"]
-        # What other programs, and --normals file, call normals.
+        # Names that other programs, and --normals file, read as normals.
         properties = {_NORMALS.get(name, name): column for name, column in made.exact.items()}
         for notice in write_mesh(
             stream, suffix, made.points, made.faces, vertex_properties=properties, comments=comments

@@ -1,7 +1,7 @@
-"""The JSON Schemas of everything that is written as JSON; `python -m curvcli.commands.schemas` writes the files again.
+"""JSON Schemas of all JSON output; `python -m curvcli.commands.schemas` writes the files.
 
-The files in `curvcli/commands/data/schemas` leave the names of columns open: plug-ins add their own. `--schema` prints
-the names.
+The files in `curvcli/commands/data/schemas` leave the names of columns open, since plug-ins add their own. `--schema`
+prints the names.
 """
 
 from __future__ import annotations
@@ -34,26 +34,26 @@ FOLDER = Path(__file__).parent / "data" / "schemas"
 
 @dataclass(frozen=True)
 class Described:
-    """command: what writes it. types: what it may be. full: the schema as printed, where the file knows less."""
+    """command: the command that writes it. types: its types. full: the printed schema, where the file has less."""
 
     command: str
     types: tuple[Any, ...]
     full: Callable[[], bytes] | None = None
 
     def stored(self) -> bytes:
-        """The content of the file."""
+        """Content of the schema file."""
         alternatives, definitions = msgspec.json.schema_components(self.types)
         for one in definitions.values():
             if "description" in one:
                 one["description"] = cleandoc(one["description"])  # as Python keeps docstrings from 3.13 on
             for value in one.get("properties", {}).values():
                 if value.get("default") == __version__:
-                    del value["default"]  # a default only for who writes it
+                    del value["default"]  # defaults apply only to the writer
         body = alternatives[0] if len(alternatives) == 1 else {"oneOf": list(alternatives)}
         return encode({"$schema": DRAFT, "title": self.command, **body, "$defs": definitions})
 
     def printed(self) -> bytes:
-        """What --schema prints."""
+        """Schema as printed by --schema."""
         return self.full() if self.full is not None else self.stored()
 
 
@@ -68,19 +68,19 @@ SCHEMAS: dict[str, Described] = {
 
 
 def path_of(name: str) -> Path:
-    """The file of a schema."""
+    """Path of a schema file."""
     return FOLDER / f"{name}.schema.json"
 
 
 def write() -> None:
-    """Write every file again."""
+    """Write all schema files."""
     FOLDER.mkdir(exist_ok=True)
     for name, one in SCHEMAS.items():
         path_of(name).write_bytes(one.stored())
 
 
 def say(name: str) -> None:
-    """Print one on stdout."""
+    """Print one schema on stdout."""
     text = json.dumps(json.loads(SCHEMAS[name].printed()), indent=2, ensure_ascii=False)
     click.echo(escape_json(text.encode("utf-8")).decode("utf-8"))
 

@@ -1,4 +1,4 @@
-"""The two sides that `curvcli compare` sets against each other: meshes that are analysed, reports, and tables."""
+"""The two sides of `curvcli compare`: meshes that are analysed, stored reports, and tables."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ class Read:
 def both_sides(
     a: str, b: str, given: set[str], conventions: dict[str, Any], limits: dict[str, Any], quiet: bool
 ) -> tuple[Read, Read]:
-    """Both sides, a mesh against a report or a table analysed as that was made.
+    """Read both sides; a mesh is analysed with the settings of a stored side.
 
-    given: the conventions that stand whatever a stored side was made with.
+    given: conventions that override those of a stored side.
     Errors: UsageError for a report and a table; InputError for what cannot be read.
     """
     kinds = {kind_of(a), kind_of(b)}
     if kinds == {"report", "table"}:
         raise UsageError("a report and a table have no values in common; compare the mesh with each of them")
-    # What is stored comes first: it says how to analyse the mesh.
+    # The stored side is read first: it has the settings for the mesh.
     stored = {path: stored_side(path, limits["max_bytes"]) for path in (a, b) if kind_of(path) != "mesh"}
     for side in stored.values():
         conventions |= {name: value for name, value in _made_with(side).items() if name not in given}
@@ -46,7 +46,7 @@ def both_sides(
 
 
 def kind_of(path: str) -> str:
-    """`mesh`, `report` or `table`, by the suffix."""
+    """Kind of a side, `mesh`, `report` or `table`, by its suffix."""
     from ..loading.tables import SUFFIXES
 
     suffix = os.path.splitext(path)[1].lower()
@@ -54,7 +54,7 @@ def kind_of(path: str) -> str:
 
 
 def stored_side(path: str, max_bytes: int | None) -> Read:
-    """A report or a table that was written before."""
+    """Read a stored report or table."""
     from ..loading.tables import read_stored_table
     from ..report.compare.model import Side
     from ..report.compare.stored import read_report
@@ -66,7 +66,7 @@ def stored_side(path: str, max_bytes: int | None) -> Read:
 
 
 def _made_with(side: Read) -> dict[str, Any]:
-    """The passes and conventions that make a mesh's report or table comparable with this one."""
+    """Passes and conventions that make a mesh comparable with this stored side."""
     from ..curvatures.catalogue import load_passes
     from ..curvatures.registry import passes
     from ..mesh.scale import options_of
@@ -98,7 +98,7 @@ def _made_with(side: Read) -> dict[str, Any]:
 def analysed_side(
     path: str, conventions: Mapping[str, Any], limits: Mapping[str, Any], quiet: bool
 ) -> tuple[Read, Result]:
-    """A mesh with its report and its columns as a stored table would have them."""
+    """Analyse a mesh: its report, and its columns in the form of a stored table."""
     from ..analysis.request import Request
     from ..analysis.result import Result, compute
     from ..loading.load import load
@@ -123,13 +123,13 @@ def analysed_side(
 
 
 def _check_suffix(path: str) -> None:
-    """Errors: InputError for a suffix that neither meshes nor what else is compared have, with all of them."""
+    """Errors: InputError for an unknown suffix, with all known ones."""
     from ..loading.elsewhere import is_url
     from ..loading.recognise import format_of_name
     from ..loading.tables import SUFFIXES
 
     if is_url(path) or os.path.isdir(path):
-        return  # reading it says what does
+        return  # the reader raises a more exact error
     try:
         format_of_name(path)
     except InputError as error:
@@ -138,7 +138,7 @@ def _check_suffix(path: str) -> None:
 
 
 def _plain(column: Any) -> Any:
-    """A column of a table as floats with NaN or words with None for null, as a stored table is read."""
+    """Column in the form of a stored table: floats with NaN for null, or words with None for null."""
     import numpy as np
 
     from ..mesh.file import Labels

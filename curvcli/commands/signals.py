@@ -1,4 +1,4 @@
-"""Signals that ask for the end unwind the program, so that it leaves nothing half-written behind."""
+"""Signal handling: on SIGINT, SIGTERM or SIGHUP, unwind so that no output is left half-written."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from types import FrameType
 
 Handler = Callable[[int, FrameType | None], None]
 
-# Ctrl-C, `kill` and `timeout`, a terminal that is closed; not all of them exist everywhere.
+# Ctrl-C, `kill` and `timeout`, a closed terminal; not all of them exist everywhere.
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
 
-# The same wish is often told twice at once: by a terminal to the whole group and by a parent to its child.
+# Often two signals arrive for one event: from a terminal to the whole group and from a parent to its child.
 _ONE_WISH = 1.0
 
-# Imports are waited for, looked at so often, and not longer than this; all in seconds.
+# Interval and limit of the wait for imports, in seconds.
 _SOON, _PATIENCE = 0.01, 5.0
 
 
@@ -24,15 +24,15 @@ _endings: list[Ending] = []
 
 
 def adopt() -> None:
-    """Listen in a child that was forked to do the work; its parent says what is to be said of a signal."""
+    """Listen in a forked child that does the work; the parent prints the message about a signal."""
     for ending in _endings:
         ending.adopted, ending._process = True, os.getpid()
 
 
 class Ending:
-    """The wish to end: raised as KeyboardInterrupt wherever the program is, and remembered here.
+    """State of a signal that ends the program: raised as KeyboardInterrupt, and stored here.
 
-    A library may catch what is raised within a callback and raise something of its own; `number` still tells.
+    A library may replace an exception raised within a callback by one of its own; `number` stays.
     """
 
     def __init__(self) -> None:
@@ -43,17 +43,17 @@ class Ending:
 
     @property
     def code(self) -> int:
-        """The exit code that shells give a process which a signal ended."""
+        """Exit code that shells give a process ended by this signal."""
         return 128 + (self.number or signal.SIGINT)
 
     def expect(self, early: Handler | None = None) -> None:
-        """Listen, in the place of an earlier handler, but not to signals that the parent has ignored, as nohup does."""
+        """Install the handlers in place of an earlier one, but not for signals that the parent ignores (nohup)."""
         for number in _numbers():
             if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler, early or signal.SIG_DFL):
                 signal.signal(number, self._hear)
 
     def too_late(self) -> None:
-        """The work is done: nothing can be interrupted any more, and Python may end in peace."""
+        """Ignore signals once the work is done, so that Python can shut down."""
         while True:
             try:
                 for number in _numbers():
@@ -65,7 +65,7 @@ class Ending:
                 continue
 
     def _hear(self, number: int, frame: FrameType | None) -> None:
-        if os.getpid() != self._process:  # a child that was forked and is not ours to unwind
+        if os.getpid() != self._process:  # a forked child, which must not unwind
             signal.signal(number, signal.SIG_DFL)
             os.kill(os.getpid(), number)
             return
@@ -75,7 +75,7 @@ class Ending:
             self._unwind(number, frame)
 
     def _unwind(self, number: int, frame: FrameType | None) -> None:
-        # An exception amid an import can leave its lock held, and a thread that needs that module would wait for ever.
+        # An exception amid an import can leave its lock held, and a thread that needs the module would wait for ever.
         if _imports(frame) and hasattr(signal, "setitimer") and time.monotonic() - self._at < _PATIENCE:
             self._delayed = True
             signal.signal(signal.SIGALRM, self._unwind)
@@ -85,7 +85,7 @@ class Ending:
 
 
 def _imports(frame: FrameType | None) -> bool:
-    """Whether what runs there is part of an import."""
+    """True if a frame belongs to an import."""
     while frame is not None:
         if frame.f_code.co_filename.startswith("<frozen importlib"):
             return True

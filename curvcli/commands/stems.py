@@ -1,10 +1,10 @@
-"""What `{stem}` stands for in the name of an output: always one name, never a way into another folder."""
+"""Value of `{stem}` in the name of an output: a single name that cannot lead into another folder."""
 
 from __future__ import annotations
 
 import os
 
-# What Windows takes for a device, whatever follows behind a dot.
+# Device names of Windows, whatever follows behind a dot.
 _DEVICES = {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))}
 
 

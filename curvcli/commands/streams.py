@@ -1,4 +1,4 @@
-"""The three standard streams, also where the parent closed one of them or nothing more goes into it."""
+"""Standard streams, including ones that the parent closed or that accept no more data."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from ..support.sinks import Sink, StderrSink, text_sink
 
 
 def complete() -> None:
-    """Open what the parent closed, so that no other file becomes stdout by taking its number, and have all written.
+    """Open streams that the parent closed, so that no other file takes the number of stdout, and route all output.
 
-    stdin is empty then, stderr forgets; stdout refuses, so that nobody believes to have written what is lost. From here
-    on every byte that goes to stdout or stderr passes through `curvcli.support.sinks`.
+    A closed stdin is then empty, stderr discards, and stdout refuses, so that lost output is an error. From here on
+    every byte for stdout or stderr passes through `curvcli.support.sinks`.
     """
     for number, name, flags in ((0, "stdin", os.O_RDONLY), (1, "stdout", os.O_RDONLY), (2, "stderr", os.O_WRONLY)):
         if getattr(sys, name) is None:
@@ -31,9 +31,9 @@ def complete() -> None:
 
 
 def settle(interrupted: bool) -> OutputError | None:
-    """Write what stdout still holds; its refusal where it has refused anything.
+    """Flush stdout; return its error if a write was refused.
 
-    Of an interrupted program it is forgotten: nobody may be there to read it, and nothing interrupts the end.
+    For an interrupted program the rest is dropped: a reader may be gone, and a write must not block the exit.
     """
     raw = getattr(getattr(sys.stdout, "buffer", None), "raw", None)
     if interrupted and isinstance(raw, Sink):

@@ -1,4 +1,4 @@
-"""What the program says on stderr: one line at a time, whatever is in it and whoever can read it."""
+"""Messages on stderr: one line at a time, printable whatever they quote."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ import click
 from ..errors import defect
 from ..support.words import escape_text
 
-# Letters of either end of a message that quotes something very long.
+# Characters kept at either end of a message that quotes something very long.
 _SHOWN = 1000
 
 
 def say(message: str) -> None:
-    """One line on stderr; where nobody can read it, the exit code still tells."""
+    """Print one line on stderr; if stderr is closed, the exit code remains."""
     click.echo(f"curvcli: {one_line(message)}", err=True)
 
 
 def one_line(text: str) -> str:
-    """Text on one line; of a very long one the beginning and the end."""
+    """Text on one line; the middle of a very long one is left out."""
     if len(text) > 2 * _SHOWN:
         text = f"{text[:_SHOWN]} … {text[-_SHOWN:]}"
     return escape_text(" ".join(text.split("\n")))
 
 
 def internal(error: BaseException) -> str:
-    """One line for a defect of the program; the whole traceback goes to stderr with -vv."""
-    # By what was typed: the defect may have come before, or amid, the reading of options.
+    """One line for a defect of the program; -vv prints the traceback."""
+    # From the typed words: the defect may precede, or interrupt, the reading of options.
     typed = [word for word in sys.argv[1:] if re.fullmatch(r"-[qv]+", word)]
     if "".join(typed).count("v") + sys.argv.count("--verbose") > 1:
         lines = "".join(traceback.format_exception(error)).split("\n")

@@ -1,4 +1,4 @@
-"""What `curvcli help` can tell: pages that come with the package, and those that the program makes of itself."""
+"""Topics of `curvcli help`: pages of text in the package, and pages generated from the declarations."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..errors import EXIT_CODES
 
 @dataclass(frozen=True)
 class Topic:
-    """summary: one line for the list. text: makes the page, its first line is the title."""
+    """summary: one line for the list. text: makes the page; its first line is the title."""
 
     summary: str
     text: Callable[[], str]
@@ -22,7 +22,7 @@ def _page(name: str) -> Callable[[], str]:
 
 
 def _table(title: str, rows: list[tuple[str, str]]) -> str:
-    """A title and two columns; what does not fit goes on below its column."""
+    """A title and two columns; long text continues below its column."""
     from textwrap import wrap
 
     width = max(len(left) for left, _ in rows) + 2
@@ -34,7 +34,7 @@ def _table(title: str, rows: list[tuple[str, str]]) -> str:
 
 
 def _exit_codes() -> str:
-    note = "\nWith several inputs the worst decides, in the order 70, 4, 3, 1, 0. A closed pipe ends with 0.\n"
+    note = "\nWith several inputs the worst code is used, in the order 70, 4, 3, 1, 0. A closed pipe ends with 0.\n"
     return _table("Exit codes", [(str(code), meaning) for code, meaning in EXIT_CODES.items()]) + note
 
 
@@ -46,10 +46,10 @@ def _formats() -> str:
     outputs = [(suffix, one.description) for suffix, one in WRITTEN.items()]
     return (
         _table("Formats that are read", inputs)
-        + "\n`-` reads a stream; --input-format says what it is.\n\n"
+        + "\n`-` reads a stream; --input-format names its format.\n\n"
         + _table("Formats that are written, by suffix (-o, --table)", outputs)
-        + "\n`-o -` writes to stdout; --format says what. Doubles are written by the shortest text that reads back to\n"
-        "the same number, unless --precision N. Schemas of JSON: `curvcli help schemas`.\n"
+        + "\n`-o -` writes to stdout; --format names the format. Doubles are written by the shortest text that reads\n"
+        "back to the same number, unless --precision N. Schemas of JSON: `curvcli help schemas`.\n"
     )
 
 
@@ -63,8 +63,8 @@ def _checks() -> str:
     required = [(one.usage + (" *" if one.name in DEFAULT else ""), one.statement) for one in kinds.values()]
     return (
         _table("Identities, which hold on every mesh up to rounding", identities)
-        + "\nA tolerance is a bound of the rounding error, not a constant of taste. A pass proves the arithmetic and\n"
-        "the counting; that the mesh is sound, or the one you meant, is what requirements are for.\n\n"
+        + "\nTolerances are derived rounding-error bounds, not chosen constants. A pass proves the arithmetic and the\n"
+        "counting. Use requirements to check that the mesh is sound, or the one you meant.\n\n"
         + _table("Requirements (check --require, --allow); * required by default", required)
     )
 
@@ -76,7 +76,7 @@ def _quantities() -> str:
     for quantity in public():
         shown = facts(quantity)
         rows.append((shown["name"], f"{shown['symbol']}: {shown['formula']} ({shown['on']}, {shown['kind']})"))
-    return _table("Quantities; `curvcli passes NAME` tells all about one", rows)
+    return _table("Quantities; `curvcli passes NAME` explains one", rows)
 
 
 def _estimates() -> str:
@@ -89,19 +89,19 @@ def _schemas() -> str:
     from .schemas import SCHEMAS
 
     rows = [(name, one.command) for name, one in SCHEMAS.items()]
-    note = "\nThe files stand in curvcli/commands/data/schemas; --schema prints them with the names of all columns.\n"
+    note = "\nThe files are in curvcli/commands/data/schemas; --schema prints them with the names of all columns.\n"
     return _table("JSON Schemas", rows) + note
 
 
 TOPICS: dict[str, Topic] = {
-    "conventions": Topic("signs, factors, units, what undefined means", _page("conventions")),
+    "conventions": Topic("signs, factors, units, undefined values", _page("conventions")),
     "quantities": Topic("every column in one line", _quantities),
-    "estimates": Topic("which curvature to take: measures, averages, corrected curvatures, fits", _estimates),
-    "checks": Topic("identities and requirements, and what a pass proves", _checks),
+    "estimates": Topic("choosing a curvature: measures, averages, corrected curvatures, fits", _estimates),
+    "checks": Topic("identities and requirements, and the meaning of a pass", _checks),
     "formats": Topic("files that are read and written", _formats),
     "schemas": Topic("JSON Schemas of everything written as JSON", _schemas),
     "regions": Topic("labels of faces", _page("regions")),
     "configuration": Topic("curvcli.toml and pyproject.toml", _page("configuration")),
-    "exit-codes": Topic("what the exit code tells", _exit_codes),
+    "exit-codes": Topic("meaning of the exit codes", _exit_codes),
     "python": Topic("the same from Python", _page("python")),
 }

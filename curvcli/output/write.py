@@ -123,8 +123,8 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     suffixes = set(suffixes)
     pictures = suffixes & {".png", ".hist.png"}
     if pictures:
-        panels = max(len(panels(appearance, chosen, suffix)) for suffix in pictures)
-        check_look(appearance.look, panels, surface=".png" in pictures)
+        count = max(len(panels(appearance, chosen, suffix)) for suffix in pictures)
+        check_look(appearance.look, count, surface=".png" in pictures)
     if suffixes & {".vtp", ".vtu"}:
         require_vtk()
     if appearance.precision != "shortest":

@@ -120,7 +120,7 @@ def test_harm_costs_the_mesh_that_does_it_only(tmp_path: Path, trapped: dict[str
         "5.obj": ("ok", 0, None),
     }
     if more:
-        too_much = f"{path}/2-14.obj: needs more memory than --max-memory allows; a larger limit takes it"
+        too_much = f"{path}/2-14.obj: needs more memory than --max-memory allows; raise the limit"
         assert rows["2-14.obj"] == ("out_of_memory", 3, too_much)
     status, code, error = rows["2-15.obj"]
     assert (status, code) == ("error", 70)

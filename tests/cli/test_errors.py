@@ -70,7 +70,10 @@ def test_what_can_be_compared_is_listed(tmp_path: Path) -> None:
 @pytest.mark.parametrize("arguments", [["analyze", CUBE, "--mean"], ["check", CUBE, "-o"], ["batch", "x", "--jobs"]])
 def test_an_option_without_its_value(arguments: list[str], tmp_path: Path) -> None:
     ended = curvcli(*arguments, folder=tmp_path)
-    assert (ended.code, ended.complaint.endswith(f"; `curvcli {arguments[0]} --help` tells more")) == (2, True)
+    assert (ended.code, ended.complaint.endswith(f"; `curvcli {arguments[0]} --help` explains the options")) == (
+        2,
+        True,
+    )
 
 
 @pytest.mark.parametrize(

@@ -68,7 +68,7 @@ def test_what_needs_too_much_memory(command_line: tuple[str, ...], tmp_path: Pat
         stream.write(Path(DISK).read_bytes())
     words = ("--max-memory", "512", "--max-bytes", "2000000000")
     ended = curvcli(*command_line, path, *words)
-    assert ended == (3, "", "curvcli: needs more memory than --max-memory allows; a larger limit takes it\n")
+    assert ended == (3, "", "curvcli: needs more memory than --max-memory allows; raise the limit\n")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])

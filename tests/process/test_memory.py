@@ -12,7 +12,7 @@ import pytest
 
 from tests.cli.program import command, environment
 
-SCARCE = b"curvcli: out of memory; a machine with more memory, or a smaller mesh, is needed\n"
+SCARCE = b"curvcli: out of memory; use a machine with more memory or a smaller mesh\n"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds the address space of a process")

@@ -1,4 +1,4 @@
-"""What the shell is offered for a parameter: files, folders, or names that belong there."""
+"""Completions of a parameter for the shell: files, folders or names."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ Known = Callable[[], Iterable[str]]
 
 
 class Names(click.ParamType[str]):
-    """Names of which only the program knows; the last of a comma list is completed.
+    """Names that only the program knows; in a comma list the last one is completed.
 
-    files: whether files may stand there too, or behind the `=` of a name that ends with one.
+    files: also complete files, alone or behind the `=` of a name that ends with one.
     """
 
     name = "text"
@@ -23,7 +23,7 @@ class Names(click.ParamType[str]):
         self.known, self.files = known, files
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
-        """Those that begin as what was typed."""
+        """Names that begin with the typed text."""
         _, equals, behind = incomplete.rpartition("=")
         if equals:
             return [CompletionItem(behind, type="file")] if self.files else []
@@ -124,7 +124,7 @@ def _topics() -> list[str]:
     return [*TOPICS, *COMMANDS]
 
 
-# What is known of a parameter, in one command or in all.
+# Completions by parameter, in one command or in all.
 _KNOWN: dict[tuple[str, str], Known] = {
     ("*", "passes"): _passes,
     ("*", "color_by"): _columns,
@@ -148,7 +148,7 @@ _FILES = ("MESH", "FILE", "PATH", "PATTERN", "LIST", "A", "B")
 
 
 def completing(command: click.Command) -> click.Command:
-    """A copy of the command whose parameters know what may stand there; what it runs with stays plain text."""
+    """A copy of the command whose parameters have completions; the original keeps plain text parameters."""
     command = copy(command)
     command.params = [copy(param) for param in command.params]
     for param in command.params:
@@ -158,7 +158,7 @@ def completing(command: click.Command) -> click.Command:
 
 
 def _type(command: str, name: str, metavar: str) -> click.ParamType[str]:
-    """By what is known of it, or by its metavar: names of files in capitals, and words as they are typed."""
+    """Completion type from the table, or from the metavar: capitals mean files, lower-case words are choices."""
     known = _KNOWN.get((command, name)) or _KNOWN.get(("*", name))
     if known is not None:
         return Names(known, files=name == "tables")

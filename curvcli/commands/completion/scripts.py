@@ -1,15 +1,15 @@
-"""The scripts by which a shell asks the program what may stand at the cursor, one per shell.
+"""Completion scripts, one per shell: each runs the program to get the words that can stand at the cursor.
 
-The program answers with words, and with `file` or `dir` where the shell knows better. Behind the last `=` of a word, as
-in `--area=mixed` or `edges=out.csv`, the answer is what may follow it; the script keeps what stands before.
+The program prints words, or `file` or `dir` where the shell completes these itself. Behind the last `=` of a word, as
+in `--area=mixed` or `edges=out.csv`, the words are values; the script keeps the text before.
 """
 
 from __future__ import annotations
 
 from click.shell_completion import BashComplete, FishComplete, ShellComplete, ZshComplete, add_completion_class
 
-# Bash splits words at `=` by itself; a name that waits for a value gets no blank behind its `=`. Before version 4.4 it
-# knows neither `nosort` nor `compopt`, and completes files where there are no words.
+# Bash splits words at `=` by itself; a name that needs a value gets no blank behind its `=`. Before version 4.4 it
+# has neither `nosort` nor `compopt`, and completes files where there are no words.
 _BASH = """\
 %(complete_func)s() {
     local kind value
@@ -92,7 +92,7 @@ complete --no-files --command %(prog_name)s --arguments '(%(complete_func)s)'
 
 
 class Bash(BashComplete):
-    """Bash, which takes `--area=mixed` for three words."""
+    """Bash, which splits `--area=mixed` into three words."""
 
     source_template = _BASH
 

@@ -1,4 +1,4 @@
-"""Where each shell looks for completions, and the lines in its start-up file where it does not look by itself."""
+"""Completion folders of the shells, and the start-up lines for shells without one."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from ...output.atomic import Outputs
 
 SHELLS = ("bash", "zsh", "fish")
 
-# A block between these lines is ours; nothing else of a start-up file is touched.
+# Text between these lines is ours; nothing else of a start-up file is changed.
 _BEGIN, _END = "# >>> curvcli completion >>>", "# <<< curvcli completion <<<"
 
 
 @dataclass(frozen=True)
 class Shell:
-    """script: the file that teaches the shell. start_up: the file that loads it, with the lines it needs for that."""
+    """script: the completion script. start_up: the file that loads it. lines: the lines for that."""
 
     name: str
     script: str
@@ -26,7 +26,7 @@ class Shell:
 
     @property
     def block(self) -> str:
-        """What stands in the start-up file; the blank line before it ends a continued one."""
+        """Text of the block in the start-up file; the blank line before it ends a continued line."""
         return "\n".join(["", _BEGIN, *self.lines, _END, ""])
 
 
@@ -66,9 +66,9 @@ def source(name: str) -> str:
 
 
 def install(one: Shell) -> list[tuple[str, bool]]:
-    """Write the script and the block that loads it; each file with whether it had to change.
+    """Write the script and the block that loads it; return each file with whether it changed.
 
-    Errors: OutputError for a file that cannot be read or written; it is then as it was.
+    Errors: OutputError for a file that cannot be read or written; it is then unchanged.
     """
     files = [(one.script, source(one.name).encode())]
     if one.start_up is not None:
@@ -77,7 +77,7 @@ def install(one: Shell) -> list[tuple[str, bool]]:
 
 
 def remove(one: Shell) -> list[tuple[str, bool]]:
-    """Take away what `install` wrote; each file with whether it had to change."""
+    """Remove the files and lines of `install`; return each file with whether it changed."""
     found = [(one.script, _delete(one.script))]
     if one.start_up is not None:
         before = _read(one.start_up)
@@ -93,9 +93,9 @@ def _with_block(content: bytes, one: Shell) -> bytes:
 
 
 def _without_block(content: bytes, one: Shell) -> bytes:
-    """The file without our block; a block that somebody tore apart is left alone.
+    """The file without our block.
 
-    Errors: OutputError for a block without its last line.
+    Errors: OutputError for a block without its last line, which stays.
     """
     begin, end = f"\n{_BEGIN}\n".encode(), f"\n{_END}\n".encode()
     start = content.find(begin)
@@ -118,7 +118,7 @@ def _read(path: str) -> bytes | None:
 
 
 def _write(path: str, content: bytes) -> bool:
-    """Replace a file in one step, following links and keeping its mode; whether it had to change."""
+    """Replace a file in one step, following links and keeping its mode; return whether it changed."""
     if _read(path) == content:
         return False
     try:
