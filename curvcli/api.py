@@ -1,4 +1,4 @@
-"""The Python interface: `load`, `analyze` and what they return."""
+"""The Python interface: `load`, `analyze` and their results."""
 
 from __future__ import annotations
 
@@ -22,17 +22,21 @@ __all__ = ["Analysis", "Registry", "Surface", "analyze", "load", "loaded"]
 
 
 class Analysis(Result):
-    """Everything computed of one surface: `vertices`, `edges`, `faces`, `totals`, `checks`, `notices`, `report()`.
+    """The results for one surface: `vertices`, `edges`, `faces`, `totals`, `checks`, `notices`, `report()`.
 
     Columns are in the file's unit of length and in the chosen convention for H; NaN is undefined.
     """
 
     def report(self) -> dict[str, Any]:
-        """The report of the interface, as plain Python values ready for JSON."""
+        """The report of `--json` as plain Python values ready for JSON."""
         return build(self)
 
     def write(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
-        """Write the vertex table, a coloured mesh, a picture or the report, as the suffix says; whole or not at all."""
+        """Write the vertex table, a coloured mesh, a picture or the report, chosen by the suffix, atomically.
+
+        force: overwrite an existing file. Errors: OutputError for an existing or unwritable path; UsageError for an
+        unknown suffix.
+        """
         write_outputs(self, [str(path)], force=force)
 
 
@@ -52,19 +56,20 @@ def analyze(
     normals: Literal["mesh", "file"] = "mesh",
     noise: float | None = None,
 ) -> Analysis:
-    """Compute curvatures of a surface, its totals and the identities that prove them.
+    """Compute curvatures of a surface, their totals and the identities that they must satisfy.
 
     surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
-    passes: a preset (`topology`, `core`, `paper`, `estimates`, `all`) or names; None is `core`, with `estimates` where
-    a scale is asked for. area: the cell of `K_density`. mean: whether H is κ₁ + κ₂ or their average. orient: `file`, or
-    `outward` to turn closed patches that are inside out; None is what a Surface was made with, else `file`. weld: how
-    the vertices of a file are merged, see `curvcli.load`. unit: a label for lengths. regions: a label per face
-    (negative: none), or the name of the file, record or property that holds them. checks: names of the identities to
-    test, whatever they need; None is those whose needs the chosen passes meet. rings, radius: how far estimates look,
-    in rings of edges or at a radius (a length, or mean edge lengths such as `3e`); several (`2e,4e`, or a list) give
-    one column for each. normals: whose normals the corrected curvatures use, the mesh's or those the file gives. noise:
-    the standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the precision of the coordinates.
-    Errors: UsageError for an unknown name or an option that does not fit, InputError for a mesh that is no surface.
+    passes: a preset (`topology`, `core`, `paper`, `estimates`, `all`) or names; None is `core`, and `estimates` if
+    `rings` or `radius` is given. area: the cell of `K_density`. mean: the convention for H, κ₁ + κ₂ (`sum`) or half of
+    it (`average`). orient: `file`, or `outward` to turn closed patches that are inside out; None keeps the choice of a
+    Surface and is `file` otherwise. weld: the rule for merging vertices of a file, see `curvcli.load`. unit: a label
+    for lengths. regions: a label per face (negative: none), or the name of the file, record or property that holds the
+    labels. checks: names of the identities to test; None tests those whose quantities the passes provide. rings,
+    radius: the scale of estimates, in rings of edges or as a radius (a length, or mean edge lengths such as `3e`);
+    several (`2e,4e`, or a list) give one column each. normals: the normals of the corrected curvatures, those of the
+    mesh or of the file. noise: the standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the
+    precision of the coordinates.
+    Errors: UsageError for an unknown name or an unsuitable option, InputError for a mesh that is no surface.
     """
     options: dict[str, Any] = {
         "area": area,

@@ -1,4 +1,4 @@
-"""The door for plug-ins: the declaration of quantities and passes."""
+"""Public declarations for plug-ins: quantities, passes and the types of their arrays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Everything that can go wrong, one class per cause, with its exit code."""
+"""Errors, one class per cause with its exit code, and notices."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from .support.words import pluralize
 
 
 class CurvcliError(Exception):
-    """Base of every error that is the input's, the option's or the output's fault, never the program's."""
+    """Base class of errors in inputs, options and outputs; other exceptions are defects of the program."""
 
 
 class UsageError(CurvcliError):
-    """An option, a name or a configuration key that is not known or does not fit."""
+    """An unknown or unsuitable option, name or configuration key."""
 
 
 class MissingExtraError(UsageError):
-    """A feature whose optional packages are not installed; the message says how to install them."""
+    """A missing optional package; the message gives the command that installs it."""
 
 
 class LackingError(UsageError):
-    """What an option names and a mesh lacks; of several meshes, an error of that one, which the others may have."""
+    """A region, property or scale that an option names and one mesh lacks; other meshes of the run may have it."""
 
 
 class InputError(CurvcliError):
     """A mesh that is missing, cannot be read, is empty, or breaks a rule that no option relaxes.
 
-    The text is one line: `path: place: what was found, what was expected; the way out`.
+    The text is one line: `path: place: finding, expectation; remedy`.
     """
 
     def __init__(self, problem: str, *, path: str | None = None, place: str | None = None, hint: str | None = None):
@@ -44,15 +44,15 @@ class InputError(CurvcliError):
 
 
 class OutputError(CurvcliError):
-    """An output that exists already, cannot be written, or would be written twice."""
+    """An output that exists already, that cannot be written, or that two options name."""
 
 
 class NoMatchError(CurvcliError):
-    """A pattern that no file matched."""
+    """A pattern without a matching file."""
 
 
 def defect(error: BaseException) -> str:
-    """What is said of an exception that none of these classes explains, and where it was raised."""
+    """The message for an exception outside these classes, with the place that raised it."""
     where = traceback.extract_tb(error.__traceback__)[-1]
     place = f"{os.path.basename(where.filename)}:{where.lineno}"
     return f"internal error: {type(error).__name__}: {error} ({place})"
@@ -60,9 +60,9 @@ def defect(error: BaseException) -> str:
 
 @dataclass(frozen=True)
 class Notice:
-    """Something accepted but worth knowing: a stable code, how often, in words, and the way out.
+    """A warning about an accepted input: a stable code, a count, a message and a remedy (`hint`).
 
-    `examples` holds the first few concerned: indices in the file's own numbering from 0, or the labels of regions.
+    examples: the first five places, as indices in the file's own numbering from 0 or labels of regions.
     """
 
     code: str
@@ -73,12 +73,12 @@ class Notice:
 
     @classmethod
     def at(cls, code: str, indices: Sequence[Any] | Any, message: str, hint: str | None = None) -> Notice:
-        """A notice of what stands at these indices (an array will do); `[one|many]` in its words as there are many."""
+        """A notice about these indices (a sequence or an array); `[one|many]` in the texts follows their number."""
         return cls.of(code, [int(index) for index in indices[:5]], message, hint, len(indices))
 
     @classmethod
     def of(cls, code: str, some: Sequence[int | str], message: str, hint: str | None, count: int) -> Notice:
-        """A notice of so many, the first few of which are known."""
+        """A notice with a count and the first few examples; `[one|many]` in the texts follows the count."""
         words = None if hint is None else pluralize(count, hint)
         return cls(code, count, pluralize(count, message), words, tuple(some[:5]))
 
@@ -108,20 +108,20 @@ _WORST_FIRST = (INTERNAL, OUTPUT, INPUT, FAILED_CHECK, OK)
 
 
 def exit_code(error: BaseException) -> int:
-    """The exit code of a cause."""
+    """The exit code of an exception."""
     return next((code for cause, code in _OF_CAUSES if isinstance(error, cause)), INTERNAL)
 
 
 def exit_code_of_one(error: BaseException) -> int:
-    """The exit code of a cause that stops one of several inputs."""
+    """The exit code of an exception that stops one of several inputs."""
     return INPUT if isinstance(error, LackingError) else exit_code(error)
 
 
 def stops_all(error: BaseException) -> bool:
-    """Whether a cause lies in the options, and so in none of several inputs."""
+    """Test whether an exception concerns the options, and so stops all inputs."""
     return isinstance(error, UsageError) and not isinstance(error, LackingError)
 
 
 def worst(codes: Iterable[int]) -> int:
-    """The exit code of several inputs, each of which was done, failed a check, was refused, or met a defect."""
+    """The exit code of several inputs: the most severe of theirs."""
     return min(codes, key=_WORST_FIRST.index, default=OK)

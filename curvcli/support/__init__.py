@@ -1,1 +1,1 @@
-"""Helpers that know nothing of meshes."""
+"""General helpers without any geometry: arrays, blocks, caches, memory, streams, words."""

@@ -1,4 +1,4 @@
-"""Types of arrays, and numbers as reports hold them."""
+"""Type aliases of arrays, and NaN and infinity as None for reports."""
 
 from __future__ import annotations
 
@@ -15,5 +15,5 @@ Counts = NDArray[np.int32]
 
 
 def or_none(value: float) -> float | None:
-    """The number, None where it is infinite or not a number."""
+    """Replace NaN and infinity by None for reports."""
     return value if math.isfinite(value) else None

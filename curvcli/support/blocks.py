@@ -12,23 +12,23 @@ from itertools import chain, islice
 from typing import TypeVar
 
 _Piece = TypeVar("_Piece")
-_Found = TypeVar("_Found")
+_Result = TypeVar("_Result")
 
-# More wait for memory and for each other.
+# More threads are no faster: they compete for memory bandwidth and the interpreter lock.
 _THREADS = 2
 
 
 def _alone() -> bool:
-    """Whether there is one thread to work with."""
+    """Test for a single usable thread."""
     # The variable that numerical libraries obey; a batch sets it for its workers, each of which has one core.
     return (os.cpu_count() or 1) < _THREADS or os.environ.get("OMP_NUM_THREADS") == "1"
 
 
 @contextmanager
-def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Found]], Callable[[], _Found]]]:
-    """Something that has work begun in another thread, and gives what waits for its result.
+def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Result]], Callable[[], _Result]]]:
+    """Provide a function that starts work in another thread and returns a function that waits for the result.
 
-    worth: whether there is so much to do that a thread pays; else the work is done when its result is asked for.
+    worth: False for little work, which is then done in this thread on the first request of its result.
     """
     if _alone() or not worth:
         yield lambda work: work
@@ -38,14 +38,14 @@ def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Fo
 
 
 def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
-    """Do the work for every piece; pieces must not share what they write, so that the order does not matter."""
+    """Do the work for every piece, in any order; no two pieces may write to the same memory."""
     deque(map_pieces(pieces, work), maxlen=0)
 
 
-def map_pieces(pieces: Iterable[_Piece], work: Callable[[_Piece], _Found]) -> Iterator[_Found]:
-    """What the work finds for every piece, in their order; pieces must not share what they write.
+def map_pieces(pieces: Iterable[_Piece], work: Callable[[_Piece], _Result]) -> Iterator[_Result]:
+    """Yield the result of the work for every piece, in their order; no two pieces may write to the same memory.
 
-    Pieces are taken from an iterator as they are needed, so that few are there at a time.
+    Pieces are taken from the iterator on demand, so that few of them exist at a time.
     """
     todo = iter(pieces)
     first = list(islice(todo, 2))
@@ -53,7 +53,7 @@ def map_pieces(pieces: Iterable[_Piece], work: Callable[[_Piece], _Found]) -> It
     if len(first) < 2 or _alone():  # one piece is not worth a thread
         yield from map(work, todo)
         return
-    context = copy_context()  # what numpy is to do about overflows and the like
+    context = copy_context()  # numpy's error state (errstate) is part of the context
     with ThreadPoolExecutor(_THREADS) as pool:
         while batch := list(islice(todo, 4 * _THREADS)):
             yield from pool.map(lambda piece: context.copy().run(work, piece), batch)
@@ -62,8 +62,8 @@ def map_pieces(pieces: Iterable[_Piece], work: Callable[[_Piece], _Found]) -> It
 ENTRIES = 32768
 
 
-# Where a slice has few temporaries of 32 bits: between two operations a thread waits for the interpreter, which imports
-# in another thread let go of a thousand times a second at most.
+# For slices with few 32-bit temporaries: a thread waits for the interpreter lock between two operations, and imports in
+# another thread release it at most a thousand times a second.
 LONG = 131072
 
 

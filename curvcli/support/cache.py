@@ -7,26 +7,26 @@ from functools import wraps
 from typing import Any, TypeVar, TypeVarTuple
 from weakref import WeakKeyDictionary
 
-_Found = TypeVar("_Found")
-_Asked = TypeVarTuple("_Asked")
+_Result = TypeVar("_Result")
+_Arguments = TypeVarTuple("_Arguments")
 
 
-def cached(find: Callable[[*_Asked], _Found]) -> Callable[[*_Asked], _Found]:
-    """The function with its results cached by the identity of every argument.
+def cached(function: Callable[[*_Arguments], _Result]) -> Callable[[*_Arguments], _Result]:
+    """Cache the results of a function by the identity of every argument.
 
-    The arguments are referred to weakly, so that the cache keeps none of them alive; a result must not refer to one.
+    The cache holds weak references to the arguments and keeps none of them alive; a result must not refer to one.
     """
-    kept: MutableMapping[Any, Any] = WeakKeyDictionary()
+    cache: MutableMapping[Any, Any] = WeakKeyDictionary()
 
-    @wraps(find)
-    def found(*asked: *_Asked) -> _Found:
-        objects: tuple[Any, ...] = asked
-        level, last = kept, objects[-1]
-        for one in objects[:-1]:
-            level = level.setdefault(one, WeakKeyDictionary())
+    @wraps(function)
+    def cached_function(*arguments: *_Arguments) -> _Result:
+        objects: tuple[Any, ...] = arguments
+        level, last = cache, objects[-1]
+        for key in objects[:-1]:
+            level = level.setdefault(key, WeakKeyDictionary())
         if last not in level:
-            level[last] = find(*asked)
-        result: _Found = level[last]
+            level[last] = function(*arguments)
+        result: _Result = level[last]
         return result
 
-    return found
+    return cached_function

@@ -1,4 +1,4 @@
-"""Cross products of differences to the last digit, for triangles so thin that plain arithmetic would lose theirs."""
+"""Compensated cross products: about twice the digits, for triangles so thin that plain arithmetic loses all of them."""
 
 from __future__ import annotations
 

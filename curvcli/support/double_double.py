@@ -1,4 +1,4 @@
-"""Numbers of twice the digits: sums of two doubles, for thin triangles and for decisions that must not waver."""
+"""Double-double arithmetic: sums of two doubles, for thin triangles and for decisions free of rounding."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class DoubleDouble:
 
 
 def empty(size: int) -> DoubleDouble:
-    """Room for numbers; memory that is never written is never taken."""
+    """Allocate numbers without a value; memory that is never written costs nothing."""
     return DoubleDouble(np.empty(size), np.empty(size))
 
 

@@ -1,4 +1,4 @@
-"""Threads of polars that a fork does not inherit: what needs them would wait for ever in the child."""
+"""Detection of forked processes without polars' threads, in which polars would wait for ever."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 
 from ..errors import UsageError
 
-# How the threads are called that work for polars once it has been used; importing it begins none of these.
+# Name prefixes of the threads that polars starts at its first use; importing polars starts none of them.
 _WORKERS = ("polars-", "async-exec", "tokio-rt")
 _IMPORTED = "polars-ooc"
 
@@ -15,9 +15,9 @@ _begun = _lost = False
 
 
 def threads_lost() -> bool:
-    """Whether this process was forked from one in which polars had begun its threads.
+    """Test for a process forked from one in which polars had started its threads.
 
-    What a single column does, such as casting it, needs none of them; tables, their files and expressions do.
+    Operations on a single column, such as a cast, need no threads; tables, their files and expressions do.
     """
     return _lost
 
@@ -37,7 +37,7 @@ def _before_fork() -> None:
 
 
 def _works() -> bool:
-    """Whether threads of polars are at work; taken for granted where the system does not tell."""
+    """Test for running threads of polars; True where /proc is missing."""
     try:
         threads = os.listdir("/proc/self/task")
     except OSError:

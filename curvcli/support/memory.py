@@ -1,4 +1,4 @@
-"""Enough memory, asked for before libraries are called that would abort the process instead of raising MemoryError."""
+"""Memory limits: checks before calls into libraries that abort the process instead of raising MemoryError."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _FIRST_USE, _LATER_USE, _STACK = 5 << 27, 3 << 26, 1 << 23
 # Address space without which importing numpy ends in an abort or in an endless wait of its BLAS.
 NUMPY = 1 << 28
 
-# What libraries say when there is none left, in exceptions of many types.
+# Messages of libraries that ran out of memory, in exceptions of many types.
 _WORDS = (
     "can't start new thread",
     "cannot allocate memory",
@@ -27,14 +27,14 @@ _WORDS = (
 
 
 def require(size: int) -> None:
-    """Errors: MemoryError unless this many more bytes can be had within the process's own limit and the machine's."""
+    """Raise MemoryError unless this many more bytes fit within the limits of the process and the machine."""
     free = available()
     if free is not None and free < size:
         raise MemoryError
 
 
 def require_polars(data: int) -> None:
-    """Errors: MemoryError unless polars can work on this many bytes of data."""
+    """Raise MemoryError unless polars can process this many bytes of data."""
     global _used
     require((_LATER_USE if _used else _FIRST_USE + (os.cpu_count() or 1) * _STACK) + 2 * data)
     _used = "polars" in sys.modules
@@ -44,7 +44,7 @@ _used = False
 
 
 def limit_address_space(memory: int) -> None:
-    """Bound the address space of this process at its present size and this much more."""
+    """Limit the address space of this process to its present size plus `memory` bytes."""
     global _bounded
     with contextlib.suppress(ImportError, OSError):
         import resource
@@ -55,7 +55,7 @@ def limit_address_space(memory: int) -> None:
 
 
 def is_bounded() -> bool:
-    """Whether `bound` has done so."""
+    """Test whether `limit_address_space` has set a limit."""
     return _bounded
 
 
@@ -63,10 +63,10 @@ _bounded = False
 
 
 def is_out_of_memory(error: BaseException) -> bool:
-    """Whether an exception, or one that led to it, means that there was no memory left.
+    """Test whether an exception, or one of its causes, means out of memory.
 
-    Under a limit a thread cannot start, a library cannot be mapped, an import fails, each in its own words; extensions
-    that do not look at what they were given leave Python with a SystemError, and its import system stumbles.
+    Under a limit threads do not start, libraries cannot be mapped and imports fail, each with another message.
+    Extensions that do not check for NULL cause a SystemError, and the import system raises errors of any type.
     """
     return any(
         isinstance(one, MemoryError)
@@ -78,13 +78,13 @@ def is_out_of_memory(error: BaseException) -> bool:
 
 
 def _within_an_import(error: BaseException) -> bool:
-    """Whether it was raised by Python's own import system."""
+    """Test whether Python's import system raised the exception."""
     frames = list(traceback.walk_tb(error.__traceback__))
     return bool(frames) and frames[-1][0].f_code.co_filename.startswith("<frozen importlib")
 
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
-    """The exception and those that it was raised from or while handling."""
+    """Yield the exception and its chain of causes and contexts."""
     one: BaseException | None = error
     seen: set[int] = set()
     while one is not None and id(one) not in seen:
@@ -94,7 +94,7 @@ def _causes(error: BaseException) -> Iterator[BaseException]:
 
 
 def limited() -> bool:
-    """Whether the address space of this process has a limit."""
+    """Test for a limit on the address space of this process."""
     try:
         import resource
     except ImportError:
@@ -103,9 +103,9 @@ def limited() -> bool:
 
 
 def trim_heap() -> None:
-    """Return freed memory to the system where the address space is limited, so that other allocators can have it.
+    """Return freed memory to the system where the address space is limited, for use by other allocators.
 
-    The command keeps freed memory in its heap, where numpy finds it again but polars and the imports do not.
+    The allocator keeps freed memory in its heap; numpy reuses it there, but polars and imports cannot.
     """
     if limited() and sys.platform.startswith("linux"):
         import ctypes
@@ -115,13 +115,13 @@ def trim_heap() -> None:
 
 
 def address_space() -> int:
-    """Bytes of address space that this process has reserved. Errors: OSError where the system does not tell."""
+    """Bytes of address space that this process has reserved. Errors: OSError without /proc."""
     with open("/proc/self/statm", encoding="ascii") as stream:
         return int(stream.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
 
 
 def available() -> int | None:
-    """Bytes that this process can still allocate; None where the system does not tell."""
+    """Bytes that this process can still allocate; None where the system does not report them."""
     try:
         import resource
 

@@ -1,4 +1,4 @@
-"""Where bytes go out: a stream takes everything it is given, or says that it cannot."""
+"""Output streams that write all bytes they are given or report an error."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from typing import Any, BinaryIO, TextIO
 
 from ..errors import OutputError
 
-# Seconds in all that a run waits for a stderr that takes no more: an error is told by the exit code too.
+# Seconds that a run waits in total for a full stderr; the exit code reports an error as well.
 _PATIENCE = 1.0
 
 
 class Sink(io.RawIOBase):
-    """A descriptor that is written to the last byte: short writes are continued, a full pipe is waited for.
+    """A file descriptor written to the last byte: short writes are continued, a full pipe is waited for.
 
-    A pipe that nobody reads any more takes everything from then on, so that its writer keeps its verdict and its other
-    outputs. name: what a refusal calls it; `failure` is the first one.
-    Errors: OutputError where the system refuses to write; once, and what follows is forgotten.
+    Data for a closed pipe are discarded, so that the run keeps its exit code and its other outputs. name: the stream in
+    error messages. failure: the first error.
+    Errors: OutputError at the first failed write; data written after it are discarded.
     """
 
     def __init__(self, descriptor: int, name: str) -> None:
@@ -35,7 +35,7 @@ class Sink(io.RawIOBase):
         return os.isatty(self._descriptor)
 
     def write(self, data: Any, /) -> int:
-        """Write all of it; the number of bytes given."""
+        """Write all bytes and return their number."""
         rest = memoryview(data).cast("B")
         count = len(rest)
         while rest and not self._forgets:
@@ -55,7 +55,7 @@ class Sink(io.RawIOBase):
         return count
 
     def forget(self) -> None:
-        """Take what comes from now on and write none of it."""
+        """Discard all data from now on."""
         self._forgets = True
 
     def _refuse(self, error: OSError) -> None:
@@ -70,12 +70,12 @@ class Sink(io.RawIOBase):
 
 
 class StderrSink(Sink):
-    """stderr: what cannot be told is forgotten, for it must not end the work."""
+    """stderr: a failed write is ignored, since a message must not end the run."""
 
     _left = _PATIENCE
 
     def _refuse(self, error: OSError) -> None:
-        """The next line may be told again."""
+        """Ignore the error; the next line is tried again."""
 
     def _wait(self) -> bool:
         begin = _now()
@@ -85,7 +85,7 @@ class StderrSink(Sink):
 
 
 def wait_for(descriptor: int, to: str, seconds: float | None = None) -> bool:
-    """Wait until a descriptor can be read or written without blocking; whether it can, after so many seconds at most.
+    """Wait until a descriptor can be read or written without blocking; False after a timeout of so many seconds.
 
     to: `read` or `write`.
     """
@@ -103,9 +103,9 @@ def _now() -> float:
 
 
 def text_sink(stream: TextIO, kind: type[Sink] = Sink) -> TextIO:
-    """A stream of text on the same descriptor that writes all; the same stream where it has none.
+    """Wrap a text stream in a `Sink` on its descriptor; a stream without a descriptor is returned as it is.
 
-    Letters that its encoding lacks are escaped: a terminal of ASCII gets its summary too.
+    Characters that its encoding lacks are escaped, so that an ASCII terminal shows the summary too.
     """
     try:
         stream.flush()
@@ -121,7 +121,7 @@ def text_sink(stream: TextIO, kind: type[Sink] = Sink) -> TextIO:
 
 
 def binary_sink(stream: TextIO) -> BinaryIO:
-    """The bytes of a stream of text, written whole whoever made it."""
+    """The binary stream below a text stream, as a `Sink` where it has a descriptor."""
     stream.flush()
     buffer = stream.buffer
     if isinstance(getattr(buffer, "raw", None), Sink):

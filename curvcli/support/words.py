@@ -1,4 +1,4 @@
-"""Words for people: plurals, escaped text, suggestions."""
+"""Text for people: plurals, escapes, numbers, suggestions of names."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ _CHOICE = re.compile(r"\[([^][|]*)\|([^][|]*)\]")
 
 
 def pluralize(count: float, text: str) -> str:
-    """The text with each `[one|many]` as the number demands: `[vertex|vertices] that no face uses`."""
+    """Choose singular or plural at each `[one|many]` of a text: `[vertex|vertices] that no face uses`."""
     return _CHOICE.sub(r"\1" if count == 1 else r"\2", text)
 
 
 def counted(count: int, one: str, many: str | None = None) -> str:
-    """`1 face`, `1,000 faces`; many: where it is not one with an s."""
+    """A number with its noun: `1 face`, `1,000 faces`. many: the plural, by default the singular and an s."""
     return f"{count:,} {_form(count, one, many)}"
 
 
 def number_of(count: int, one: str, many: str | None = None) -> str:
-    """As `counted`, in the digits that stand in a file: `1000 faces`."""
+    """A number with its noun, without thousands separators, as files write it: `1000 faces`."""
     return f"{count} {_form(count, one, many)}"
 
 
@@ -30,10 +30,10 @@ def _form(count: int, one: str, many: str | None) -> str:
 
 
 def escape_text(text: str) -> str:
-    """The text on one line, what cannot be printed escaped."""
+    """Escape unprintable characters, line ends included."""
     if text.isprintable():
         return text
-    with suppress(UnicodeEncodeError):  # of half a pair of surrogates, which stands for no byte
+    with suppress(UnicodeEncodeError):  # a lone surrogate that stands for no byte
         text = text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
@@ -42,8 +42,8 @@ _ASCII = bytes(range(128))
 
 
 def escape_json(data: bytes) -> bytes:
-    r"""JSON that a terminal can show: the same values, with what cannot be printed in them as `\u`."""
-    # Outside of strings all is printable but the ends of lines. ASCII goes first: most of a report is that.
+    r"""Escape unprintable characters in JSON as `\u`; the values stay the same."""
+    # Outside strings only line ends are unprintable. ASCII is removed first, because reports consist mostly of it.
     beyond = set(data.translate(None, _ASCII).decode("utf-8"))
     odd = {c for c in beyond if not c.isprintable()} | ({"\x7f"} if b"\x7f" in data else set())
     return data.decode("utf-8").translate({ord(c): _of_json(c) for c in odd}).encode("utf-8") if odd else data
@@ -54,23 +54,22 @@ def _of_json(character: str) -> str:
     return "".join(f"\\u{units[at]:02x}{units[at + 1]:02x}" for at in range(0, len(units), 2))
 
 
-# What a spreadsheet takes for the beginning of a formula, in Latin and in full-width letters, behind our own mark.
+# First characters of a spreadsheet formula, Latin and full-width, behind any apostrophes that escape them.
 _FORMULA = re.compile("'*[=+\\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
 
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
-# Not printable by Python's count, yet blanks and joints in the writing of many languages.
+# Unprintable for Python, but spaces and joiners of many scripts.
 _HARMLESS = frozenset("\t\n\u00a0\u1680\u2002\u2003\u2007\u2009\u202f\u3000\u200c\u200d")
 
 
 def escape_cell(text: str) -> str:
-    """Text for a cell of a table in text, from which a spreadsheet computes nothing.
+    """Escape text for a cell of a CSV or TSV table, against formula injection and control characters.
 
-    A text that a spreadsheet would take for a formula gets an apostrophe before it, and so does one that begins with
-    apostrophes before such a text: `from_cell` takes it away again. A number stays one. Control characters are escaped,
-    which is not undone.
+    Text that a spreadsheet would evaluate gets an apostrophe in front, and so does such text behind apostrophes;
+    `unescape_cell` removes it. Numbers stay numbers. The escape of control characters is not undone.
     """
     if not text.isprintable():
         text = "".join(c if c.isprintable() or c in _HARMLESS else escape_text(c) for c in text)
@@ -78,7 +77,7 @@ def escape_cell(text: str) -> str:
 
 
 def unescape_cell(text: str) -> str:
-    """The text of a cell that `in_cell` made."""
+    """Undo the apostrophe of `escape_cell`."""
     return text[1:] if text.startswith("'") and _FORMULA.match(text) else text
 
 
@@ -86,20 +85,20 @@ _LINK = re.compile(r"\[(?=[^\[\]]*\]\()")
 
 
 def escape_sarif(text: str) -> str:
-    """Text for a message of SARIF, in which nothing is a link of its dialect."""
+    """Escape text for a SARIF message, whose Markdown dialect would read `[a](b)` as a link."""
     return _LINK.sub(r"\\[", escape_text(text)).replace("](", r"\](")
 
 
-# Names less alike than this (of `difflib`) are no suggestion.
+# Names with a lower similarity (of `difflib`) are not suggested.
 _CUTOFF = 0.6
 
 
-# Lists up to this long are given whole where no name is near.
+# Lists up to this length are given in full where no name is similar.
 _SHORT = 8
 
 
 def suggest(name: str, known: Iterable[str]) -> list[str]:
-    """Up to three known names like this one, nearest first, whatever the case; `-` and `_` are the same."""
+    """Up to three known names similar to this one, best first; case is ignored, `-` and `_` are the same."""
     folded: dict[str, list[str]] = {}
     for one in known:
         folded.setdefault(_folded(one), []).append(one)
@@ -116,10 +115,10 @@ def _folded(name: str) -> str:
 
 
 def suggestion(name: str, known: Iterable[str], listing: str = "") -> str:
-    """The end of a message about an unknown name: `; nearest: a, b`, the whole of a short list, or what lists all.
+    """The end of a message about an unknown name: `; nearest: a, b`, all names of a short list, or `listing`.
 
-    listing: a sentence such as "`curvcli passes` lists them". Empty where nothing is near, the list long and nothing
-    lists it.
+    listing: a sentence such as "`curvcli passes` lists them". Empty for a long list without similar names and without a
+    listing.
     """
     names = list(dict.fromkeys(known))
     near = suggest(name, names)
@@ -131,6 +130,6 @@ def suggestion(name: str, known: Iterable[str], listing: str = "") -> str:
 
 
 def format_number(value: float) -> str:
-    """The shortest text of a number that reads back, as a person would write it."""
+    """The shortest decimal text that reads back as the same number, without a trailing `.0`."""
     text = f"{value:.15g}"
     return text if float(text) == value else repr(value)
