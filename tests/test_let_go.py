@@ -16,8 +16,10 @@ import curvcli
 from curvcli.api import Analysis
 from curvcli.commands.main import cli
 from curvcli.errors import MissingExtraError
+from curvcli.output.appearance import DEFAULT
 from curvcli.output.formats import FORMATS
 from curvcli.output.tables.columns import TABLES
+from curvcli.output.write import needs
 from curvcli.report.terminal.summary import show
 from tests import exact_values, meshes
 
@@ -43,10 +45,15 @@ def _said(analysis: Analysis) -> None:
     assert analysis.passed is not None
 
 
+def _table(analysis: Analysis, kind: str) -> None:
+    analysis.include(needs((), [kind], DEFAULT, analysis.chosen))
+    assert TABLES[kind](analysis) is not None
+
+
 USES: dict[str, Callable[[Analysis, Path], object]] = {
     "columns": lambda analysis, _: _columns(analysis),
     "said": lambda analysis, _: _said(analysis),
-    **{kind: lambda analysis, _, table=table: table(analysis) for kind, table in TABLES.items()},  # type: ignore[misc]
+    **{kind: lambda analysis, _, kind=kind: _table(analysis, kind) for kind in TABLES},  # type: ignore[misc]
     **{
         suffix: lambda analysis, folder, suffix=suffix: analysis.write(folder / f"x{suffix}")  # type: ignore[misc]
         for suffix in FORMATS

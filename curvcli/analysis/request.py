@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -45,6 +45,8 @@ class Conventions:
 class Request:
     """The options of an analysis, as `curvcli.analyze` documents them.
 
+    besides: quantities that tables and colours need beside the report, computed in the same evaluation; the report does
+    not depend on them.
     Errors: UsageError for an option or a name that is not known.
     """
 
@@ -60,6 +62,7 @@ class Request:
     radius: str | float | Iterable[str | float] | None = None
     normals: Normals = "mesh"
     noise: float | None = None
+    besides: Collection[str] = ()
 
     def __post_init__(self) -> None:
         known: dict[str, tuple[str, ...]] = {

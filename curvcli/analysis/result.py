@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -15,7 +15,7 @@ from ..checks import Check, rules
 from ..checks.listing import summarise_checks
 from ..curvatures.catalogue import at_scales
 from ..curvatures.engine import evaluate, in_file_unit, prepare, schedule
-from ..curvatures.quantity import AT_SCALE, Element, Quantity
+from ..curvatures.quantity import AT_SCALE, CELL_AREA, Element, Quantity
 from ..curvatures.registry import passes
 from ..errors import Notice
 from ..loading.labels import Regions, cut_along_regions, find_regions, region_notices
@@ -69,15 +69,19 @@ class Result:
             *beside(self.chosen),
             *(need for rule in self._rules for need in rule.needs),
         }
-        prepare(passes, surface, wanted, request.area)
-        self.columns = evaluate(passes, surface, wanted, area=request.area, settings=self.settings)
-        self._later: dict[str, Array] = {}
+        besides = {*request.besides} - wanted
+        prepare(passes, surface, wanted | besides, request.area)
+        computed = evaluate(passes, surface, wanted | besides, area=request.area, settings=self.settings)
+        self.columns = {name: computed[name] for name in wanted}
+        self.besides = {name: computed[name] for name in besides}
         self._shown: dict[str, Array] = {}
         self._named: dict[Element, dict[str, tuple[Quantity, int | None]]] = {}
         self.cut: Result | None = None
         if regions is not None:
             cut, self.cut_groups = cut_along_regions(surface, regions)
-            self.cut = Result(cut, replace(request, regions=None), checks=[rule.name for rule in self._rules])
+            self.cut = Result(
+                cut, replace(request, regions=None, besides=()), checks=[rule.name for rule in self._rules]
+            )
 
     @cached_property
     def _closure(self) -> set[str]:
@@ -107,21 +111,37 @@ class Result:
 
     def column(self, name: str) -> Array:
         """One column as a user sees it: (n,), (n, 3), or strings for labels."""
-        return in_file_unit(passes.quantity(name), self._column(name), self.surface, self.request.mean)
+        return in_file_unit(passes.quantity(name), self.computed(name), self.surface, self.request.mean)
 
     def shown(self, name: str) -> Array:
-        """The same, kept for whoever asks again."""
+        """The same column, cached, and computed where the request did not name it."""
         if name not in self._shown:
+            self.include([name])
             self._shown[name] = self.column(name)
         return self._shown[name]
 
-    def _column(self, name: str) -> Array:
-        """A column as computed; those of a table asked for later are kept apart, so that no report depends on it."""
-        if name not in self.columns and name not in self._later:
-            known = {**self.columns, **self._later}
-            area, settings = self.request.area, self.settings
-            self._later = evaluate(passes, self.surface, [name], area=area, settings=settings, known=known)
-        return self.columns[name] if name in self.columns else self._later[name]
+    def computed(self, name: str) -> Array:
+        """A column in the unit of computation and the sum convention of H."""
+        return self.columns[name] if name in self.columns else self.besides[name]
+
+    def include(self, names: Iterable[str]) -> None:
+        """Compute quantities that the request did not name; the report does not depend on them."""
+        missing = {*names} - self.columns.keys() - self.besides.keys()
+        if missing:
+            known = {**self.columns, **self.besides}
+            found = evaluate(passes, self.surface, missing, area=self.request.area, settings=self.settings, known=known)
+            self.besides |= {name: found[name] for name in missing}
+
+    def with_noise(self, names: Collection[str], noise: float) -> dict[str, Array]:
+        """Quantities for another standard deviation of the coordinates, in the unit of computation."""
+        settings = replace(self.settings, noise=noise)
+        known = {name: column for name, column in self.columns.items() if name not in names}
+        found = evaluate(passes, self.surface, names, area=self.request.area, settings=settings, known=known)
+        return {name: found[name] for name in names}
+
+    def depends_on_area(self, name: str) -> bool:
+        """Whether a quantity follows from the cell area of the request."""
+        return any(CELL_AREA in one.needs for one in schedule(passes, [name], self.request.area))
 
     @property
     def vertices(self) -> Columns:

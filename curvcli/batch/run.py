@@ -20,7 +20,8 @@ from ..loading.read import read_mesh_file
 from ..loading.recognise import format_of_name
 from ..mesh.polygons import from_file
 from ..output.atomic import Outputs
-from ..output.write import write_into
+from ..output.formats import format_of
+from ..output.write import needs, write_into
 from ..report.build import pieces
 from ..support.memory import is_out_of_memory, trim_heap
 from ..support.words import escape_text
@@ -42,7 +43,7 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
     spent = False
     try:
         analysis = _analysed(item, settings)
-        row = _row(item, analysis)  # first: tables compute more, and a row must not depend on what is saved
+        row = _row(item, analysis)
         _write(analysis, item, settings)
         row.outputs = _written(item)
     except Exception as error:
@@ -63,7 +64,11 @@ def _analysed(item: Item, settings: Settings) -> Result:
             key: getattr(settings, key)
             for key in ("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise")
         }
-        analysis = compute(surface, Request(passes=settings.passes, **conventions), Result)
+        request = Request(passes=settings.passes, **conventions)
+        formats = [format_of(path) for kind, path in item.outputs if not kind]
+        tables = [kind for kind, _ in item.outputs if kind]
+        besides = needs(formats, tables, settings.appearance, request.chosen)
+        analysis = compute(surface, replace(request, besides=besides), Result)
     with _timed(timings, "check"):
         _ = analysis.checks
     analysis.timings |= timings
@@ -94,9 +99,8 @@ def _write(analysis: Result, item: Item, settings: Settings) -> None:
         _make(folder)
     # The folder is the batch's own and was checked at the start: what stands there is of an earlier run.
     with Outputs([path for _, path in item.outputs], force=True, durable=True) as outputs:
-        analysis.extra_notices += write_into(
-            outputs, analysis, paths, settings.appearance, tables=tables, command=settings.command
-        )
+        notices, _ = write_into(outputs, analysis, paths, settings.appearance, tables=tables, command=settings.command)
+        analysis.extra_notices += notices
 
 
 def _written(item: Item) -> list[Written]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -113,7 +114,7 @@ class Run:
     ) -> None:
         from ..output.formats import format_of
         from ..output.tables.columns import TABLES
-        from ..output.write import check_appearance
+        from ..output.write import check_appearance, needs
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
         self.weld, self.configuration = parse_weld(weld), configuration()
@@ -133,6 +134,7 @@ class Run:
             for path in self.paths[0]
         ]
         check_appearance(self.appearance, at_scale, [one.suffix for one in formats])
+        self.besides = needs(formats, [kind for kind, _ in kinds], self.appearance, at_scale)
         for kind, path in self.tables[0]:
             format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
             if kind == "regions" and conventions["regions"] is None:
@@ -191,7 +193,8 @@ class Run:
             asked = {key: self.conventions[key] for key in ("orient", "normals")}
             surface = load(source, weld=self.weld, **asked, **self.limits)
         with phase(f"computing {mesh}", self.quiet) as computing:
-            analysis = compute(surface, Request(passes=self.passes, weld=self.weld, **self.conventions), Result)
+            request = Request(passes=self.passes, weld=self.weld, besides=self.besides, **self.conventions)
+            analysis = compute(surface, request, Result)
         analysis.configuration = self.configuration
         analysis.timings |= {"read": reading.seconds, "compute": computing.seconds}
 
@@ -206,20 +209,18 @@ class Run:
             model(analysis)  # caches the parts of the report that are printed later
 
         with phase(f"{'checking and writing' if paths or tables else 'checking'} {mesh}", self.quiet):
-            if paths or tables:
-                analysis.extra_notices += write_into(
-                    outputs,
-                    analysis,
-                    paths,
-                    self.appearance,
-                    self.stream_format,
-                    tables,
-                    tell=self.tell_of_picture,
-                    command=shell_quoted(["curvcli", *sys.argv[1:]]),
-                    meanwhile=check,
-                )
-            else:
+            if not (paths or tables):
                 check()
+                return analysis
+            command = shell_quoted(["curvcli", *sys.argv[1:]])
+            with ThreadPoolExecutor(1) as pool:
+                checked = pool.submit(check)
+                notices, ranges = write_into(
+                    outputs, analysis, paths, self.appearance, self.stream_format, tables, command, checked
+                )
+            analysis.extra_notices += notices
+            for line in ranges if not self.quiet else ():
+                say(line)
         return analysis
 
     def somebody_asks(self, paths: list[str]) -> bool:
@@ -230,11 +231,6 @@ class Run:
         name = self.stream_format
         kinds = {format_of(path, name=name if path == "-" else None).kind for path in paths}
         return said or not kinds <= {"table", "mesh", "picture"}
-
-    def tell_of_picture(self, line: str) -> None:
-        """Print on stderr that a picture leaves something out."""
-        if not self.quiet:
-            say(line)
 
     def tell(self, analysis: Result) -> Any:
         """Print one analysis on stdout; return its report if it is printed later."""

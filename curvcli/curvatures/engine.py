@@ -94,7 +94,8 @@ def evaluate(
     Arrays are frozen, in the unit of computation and the sum convention of H.
     """
     have = dict(known or {})
-    wanted = {name for name in names if name not in have}
+    asked = [*have, *names]
+    wanted = {name for name in asked if name not in have}
     around = {name for name in wanted if passes.looks_around(name)}
     if around and not surface.is_manifold:
         have |= on_single_fans(surface, evaluate(passes, sheets(surface), around, area=area, settings=settings))
@@ -109,7 +110,7 @@ def evaluate(
             found = _evaluate(passes, surface, here, area, replace(settings, scales=(scale,)), same)
             have |= {name + suffix: found[name] for name in here}
     clear_cache(surface)
-    return have
+    return {name: have[name] for name in asked}
 
 
 def _shared(passes: Provider, names: Iterable[str], area: str) -> set[str]:

@@ -67,6 +67,16 @@ def colored_quantity(name: str, chosen: list[str]) -> Quantity:
     return columns[name]
 
 
+def color_needs(name: str, chosen: list[str]) -> set[str]:
+    """The quantities that the colours of a column are made from."""
+    from .pictures.floor import floor_needs
+
+    quantity = colored_quantity(name, chosen)
+    if quantity.on == "edge":
+        return {quantity.name, "theta"}
+    return set() if quantity.labels else floor_needs(quantity)
+
+
 def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
     """A column with the colours that it has in every output."""
     from .pictures.colors import categorize, colorize
@@ -96,11 +106,14 @@ def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
 
 def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] | None:
     """The column that colours the surface and its colours; None when no column was computed."""
-    chosen = (
-        tuple(name for name in appearance.color_by if name in vertex_quantities(analysis.chosen))[:1]
-        or tuple(name for name in COLOR_BY if name in analysis.chosen)[:1]
-    )
-    return (chosen[0], colored(analysis, chosen[0], appearance).scale) if chosen else None
+    name = coloring(appearance, analysis.chosen)
+    return None if name is None else (name, colored(analysis, name, appearance).scale)
+
+
+def coloring(appearance: Appearance, chosen: list[str]) -> str | None:
+    """The column that colours a mesh."""
+    asked = (name for name in appearance.color_by if name in vertex_quantities(chosen))
+    return next(asked, next((name for name in COLOR_BY if name in chosen), None))
 
 
 def panels(appearance: Appearance, chosen: list[str], suffix: str) -> tuple[str, ...]:

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
 from threading import Event
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from ..curvatures.registry import passes
 from ..errors import Notice, UsageError
 from ..support.memory import require_polars
-from .appearance import COLOR_BY, DEFAULT, Appearance, colored, colored_quantity, colors, panels
+from .appearance import (
+    COLOR_BY,
+    DEFAULT,
+    Appearance,
+    color_needs,
+    colored,
+    colored_quantity,
+    coloring,
+    colors,
+    panels,
+    vertex_quantities,
+)
 from .atomic import Outputs
 from .formats import Format, format_of
 from .pictures.framing import check_look, import_apart, parse_view, require_pictures, require_vtk
@@ -35,8 +47,30 @@ def write_outputs(
     Errors: UsageError for a suffix that is not promised, OutputError for a path that exists or cannot be written.
     """
     paths = list(paths)
+    formats = [format_of(path, name=stream_format if path == "-" else None) for path in paths]
     with Outputs(paths, force) as outputs:
-        return write_into(outputs, analysis, paths, appearance, stream_format)
+        analysis.include(needs(formats, (), appearance, analysis.chosen))
+        return write_into(outputs, analysis, paths, appearance, stream_format)[0]
+
+
+def needs(formats: Iterable[Format], tables: Iterable[str], appearance: Appearance, chosen: list[str]) -> set[str]:
+    """The quantities that outputs need beside the chosen ones: `besides` of a `Request`.
+
+    tables: kinds of tables. chosen: names of quantities, at each scale.
+    """
+    found = {
+        quantity.name for kind in ("edge", "face") if f"{kind}s" in {*tables} for quantity in passes.quantities(kind)
+    }
+    columns: set[str] = set()
+    for one in formats:
+        if one.kind == "mesh":
+            columns.update(filter(None, [coloring(appearance, chosen)]))
+        elif one.kind == "picture":
+            columns.update(panels(appearance, chosen, one.suffix))
+        elif one.suffix == ".html":
+            numbers = (name for name, quantity in vertex_quantities(chosen).items() if not quantity.labels)
+            columns.update(numbers, appearance.color_by)
+    return found.union(*(color_needs(name, chosen) for name in columns)).difference(chosen)
 
 
 def write_into(
@@ -46,17 +80,17 @@ def write_into(
     appearance: Appearance,
     stream_format: str | None = None,
     tables: Iterable[tuple[str, str]] = (),
-    tell: Callable[[str], None] = lambda line: None,
     command: str | None = None,
-    meanwhile: Callable[[], None] = lambda: None,
-) -> list[Notice]:
+    checked: Future[None] | None = None,
+) -> tuple[list[Notice], list[str]]:
     """Write the vertex table, mesh, picture or report that each path's suffix names into outputs that are open already.
 
-    tables: pairs of a kind (`edges`, `faces`, …) and a path. tell: takes what a picture leaves out, a line at a time.
-    command: what makes these outputs, for the pages that say so. meanwhile: work that the reports need, done while the
-    tables are written: polars formats them outside the interpreter.
+    Returns notices of values that a format cannot hold, and for each column of a picture a line with its range.
+    The analysis must include the quantities of `needs`. tables: pairs of a kind (`edges`, `faces`, …) and a path.
+    command: the command line, for pages. checked: the checks, computed in another thread; reports wait for them.
     """
     notices: list[Notice] = []
+    ranges: list[str] = []
     formats = {path: format_of(path, name=stream_format if path == "-" else None) for path in paths}
     tables = list(tables)
     if tables or any(found.kind == "table" for found in formats.values()):
@@ -71,14 +105,15 @@ def write_into(
             for path in (path for path, found in formats.items() if found.kind == "mesh"):
                 with outputs.open(path) as stream:
                     notices += _write_mesh(stream, analysis, formats[path].suffix, appearance)
-            meanwhile()
+            if checked is not None:
+                checked.result()
             for path, found in formats.items():
                 if found.kind in ("table", "mesh"):
                     continue
                 with outputs.open(path) as stream:
                     if found.kind == "picture":
-                        for line in _write_picture(stream, analysis, found.suffix, appearance):
-                            tell(f"{path}: {line}")
+                        lines = _write_picture(stream, analysis, found.suffix, appearance)
+                        ranges += [f"{path}: {line}" for line in lines]
                     elif found.kind == "page":
                         _write_page(stream, analysis, found.suffix, appearance, command)
                     else:
@@ -91,7 +126,7 @@ def write_into(
         except BaseException:
             stop.set()
             raise
-    return notices
+    return notices, ranges
 
 
 def _tables(

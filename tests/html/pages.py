@@ -10,7 +10,9 @@ import numpy as np
 import curvcli
 from curvcli.api import Analysis
 from curvcli.output.appearance import Appearance
+from curvcli.output.formats import FORMATS
 from curvcli.output.html.page import page
+from curvcli.output.write import needs
 from tests.html.parsed import Page
 from tests.meshes import Mesh
 
@@ -26,7 +28,9 @@ def written(mesh: Mesh, path: Path) -> Path:
 
 
 def page_of(analysis: Analysis, command: str | None = "curvcli analyze x.obj", **look: Any) -> bytes:
-    return page(analysis, Appearance(**look), ("K_density",), command)
+    appearance = Appearance(**look)
+    analysis.include(needs([FORMATS[".html"]], (), appearance, analysis.chosen))
+    return page(analysis, appearance, ("K_density",), command)
 
 
 def parsed(mesh: Any, passes: str = "core", **options: Any) -> tuple[Analysis, Page]:

@@ -13,7 +13,7 @@ import pytest
 import curvcli
 from curvcli.api import Analysis
 from curvcli.errors import UsageError
-from curvcli.output.appearance import Appearance, colored
+from curvcli.output.appearance import Appearance
 from curvcli.output.cells import own_cells
 from curvcli.output.html.page import page as page_bytes
 from curvcli.output.pictures.framing import Look
@@ -22,6 +22,7 @@ from tests import meshes
 from tests.cli.program import curvcli as program
 from tests.html.parsed import Page
 from tests.meshes import Mesh
+from tests.output.coloring import colored
 from tests.output.images import near, opengl
 from tests.output.test_pictures import picture, seen
 
@@ -51,7 +52,7 @@ def test_the_flat_side_of_a_cylinder_is_not_painted_as_curved(column: str) -> No
     """Seen from above, all but a narrow rim has the colour of 0."""
     analysis = analysed(tin())
     assert "creased" in {notice.code for notice in analysis.notices}
-    scale = colored(analysis, column, Appearance()).scale
+    scale = colored(analysis, column).scale
     flat = scale.gradient[len(scale.gradient) // 2 if scale.signed else 0]
     pixels = seen(analysis, color_by=(column,), look=Look(view="top", size=(800, 800)))
     height, width = pixels.shape[:2]
@@ -63,7 +64,7 @@ def test_edges_have_the_colours_of_theta() -> None:
     analysis = analysed(tin())
     _, told = picture(analysis, color_by=("theta",), look=Look(size=(800, 800)))
     assert told[0].split("theta: ")[1].startswith("−1.571 to 1.571")
-    scale = colored(analysis, "theta", Appearance()).scale
+    scale = colored(analysis, "theta").scale
     assert len(scale.rgb) == len(analysis.surface.edges)
     pixels = seen(analysis, color_by=("theta",), look=Look(size=(800, 800)))
     sharp = near(pixels[..., :3], tuple(int(part) for part in scale.gradient[-1]), 20)
@@ -77,7 +78,7 @@ def test_flat_edges_are_rounding() -> None:
     turned = (flat.points * [1, 1, 0]) @ np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
     analysis = curvcli.analyze((turned, flat.faces), "core")
     for name in ("theta", "kappa_across", "H_theta"):
-        scale = colored(analysis, name, Appearance()).scale
+        scale = colored(analysis, name).scale
         assert (scale.low, scale.high) == (0.0, 0.0)
         assert scale.rounded is not None
 

@@ -9,13 +9,14 @@ import pytest
 
 import curvcli
 from curvcli.api import Analysis
-from curvcli.output.appearance import Appearance, colored
+from curvcli.output.appearance import Appearance
 from curvcli.output.html.columns import columns
 from curvcli.output.pictures.legend import range_text
 from tests import meshes
 from tests.html.pages import page_of
 from tests.html.parsed import Page
 from tests.meshes import Mesh
+from tests.output.coloring import colored
 
 STARS = ("K_density", "h_signed", "kappa_1", "kappa_2", "kappa_max", "curvedness", "willmore", "H_vec_x", "K")
 ESTIMATES = tuple(
@@ -44,7 +45,7 @@ def of(mesh: Mesh, scale: float = 1.0, shift: float = 0.0, single: bool = False)
 
 def colors_of(analysis: Analysis, name: str) -> tuple[int, str]:
     """How many colours the defined values have, and what the legend says."""
-    scale = colored(analysis, name, Appearance()).scale
+    scale = colored(analysis, name).scale
     known = np.isfinite(analysis.vertices[name])
     return len(np.unique(scale.rgb[known], axis=0)), range_text(scale, None)
 
@@ -67,7 +68,7 @@ def test_a_fold_has_no_gauss_curvature(name: str) -> None:
 
 def test_a_fold_has_the_mean_curvature_of_its_ridge_alone() -> None:
     analysis = of(plate(0, fold=0.7))
-    scale = colored(analysis, "h_signed", Appearance()).scale
+    scale = colored(analysis, "h_signed").scale
     ridge = np.zeros(441, bool)
     ridge[210:231] = True
     known = np.isfinite(analysis.vertices["h_signed"])
@@ -87,7 +88,7 @@ def test_no_curvature_is_hidden(name: str, sample: str, size: int) -> None:
     mesh = meshes.of_sample(sample, size=size)
     points = mesh.points.astype(np.float32).astype(np.float64)
     analysis = curvcli.analyze((points, mesh.faces), [name])
-    scale = colored(analysis, name, Appearance()).scale
+    scale = colored(analysis, name).scale
     hidden = 0 if scale.rounded is None else int(scale.rounded.sum())
     largest = np.nanmax(np.abs(analysis.vertices[name]))
     assert hidden < 0.002 * len(points)

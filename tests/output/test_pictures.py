@@ -12,12 +12,13 @@ import pytest
 import curvcli
 from curvcli.api import Analysis
 from curvcli.output.appearance import Appearance
+from curvcli.output.formats import format_of
 from curvcli.output.pictures.camera import screen
 from curvcli.output.pictures.colors import colorize
 from curvcli.output.pictures.framing import Look
 from curvcli.output.pictures.render import Lines, render
 from curvcli.output.pictures.sheet import Sheet
-from curvcli.output.write import write_into
+from curvcli.output.write import needs, write_into
 from tests.meshes import Mesh, of_sample
 from tests.output.images import Pixels, collisions, decoded, difference_hash, near, opengl
 
@@ -44,9 +45,10 @@ class _Memory:
 
 
 def picture(analysis: Analysis, name: str = "x.png", **appearance: Any) -> tuple[bytes, list[str]]:
-    memory, told = _Memory(), []
-    write_into(memory, analysis, [name], Appearance(**appearance), tell=told.append)  # type: ignore[arg-type]
-    return memory.stream.getvalue(), told
+    memory, look = _Memory(), Appearance(**appearance)
+    analysis.include(needs([format_of(name)], (), look, analysis.chosen))
+    _, ranges = write_into(memory, analysis, [name], look)  # type: ignore[arg-type]
+    return memory.stream.getvalue(), ranges
 
 
 def seen(analysis: Analysis, name: str = "x.png", **appearance: Any) -> Pixels:

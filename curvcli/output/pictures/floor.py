@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...curvatures.catalogue import UNCERTAINTIES
-from ...curvatures.engine import evaluate
 from ...curvatures.quantity import AT_SCALE, Quantity
-from ...curvatures.registry import passes
 from ...mesh.precision import is_single, last_place
 from ...mesh.topology import next_corner
 from ...mesh.triangles import EPSILON
@@ -36,7 +33,27 @@ _SIGNED = ("h_signed", "h_normal", "kappa_1", "kappa_2")
 _KAPPAS = ("kappa_1", "kappa_2", "kappa_max", "curvedness")
 _DEFECTS = ("K", "K_plus", "K_minus", "K_abs")
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
+_OF_STARS = (*_DEFECTS, *_STAR, *_KAPPAS, *_ENERGIES, "K_density", "H_vec", "area_gradient")
 _ESTIMATES = ("_ring", "_corrected", "_fit")
+
+
+def _name(quantity: Quantity) -> tuple[str, str]:
+    """The name without its scale, and the ending of an estimate with its scale; "" for other quantities."""
+    plain, _, scale = quantity.name.partition(AT_SCALE)
+    ending = next((ending for ending in _ESTIMATES if plain.endswith(ending)), "")
+    return plain, f"{ending}{AT_SCALE}{scale}" if ending and scale else ending
+
+
+def floor_needs(quantity: Quantity) -> set[str]:
+    """The quantities that `floor` takes from the result beside the star sums."""
+    plain, at = _name(quantity)
+    if at and quantity.kind == "measure":
+        return {f"h{at}", "h"}
+    if at and quantity.kind == "density":
+        return {f"kappa_1{at}", f"kappa_2{at}"} if quantity.length_exponent == -2 else set()
+    if plain in (*_KAPPAS, *_ENERGIES, "K_density"):
+        return {"h", "K", "K_density"}
+    return {"h"} if plain in _SIGNED else set()
 
 
 def floor(analysis: Result, quantity: Quantity, values: Floats) -> Floats | None:
@@ -47,20 +64,18 @@ def floor(analysis: Result, quantity: Quantity, values: Floats) -> Floats | None
     of an angle defect. Estimates at a scale are flat where they lift a star by less than the last place. 0 where a
     value is exact.
     """
-    plain, _, scale = quantity.name.partition(AT_SCALE)
-    suffix = next((ending for ending in _ESTIMATES if plain.endswith(ending)), "")
+    plain, at = _name(quantity)
     bound: Callable[[_Rounding], Floats] | None = None
-    if suffix and quantity.kind in ("density", "measure"):
-        at = f"{suffix}{AT_SCALE}{scale}" if scale else suffix
+    if at and quantity.kind in ("density", "measure"):
         bound = lambda rounding: rounding.estimate(quantity, at)  # noqa: E731
-    elif plain in (*_DEFECTS, *_STAR, *_KAPPAS, *_ENERGIES, "K_density", "H_vec", "area_gradient"):
+    elif plain in _OF_STARS:
         bound = lambda rounding: rounding.of_star(plain)  # noqa: E731
     known = np.abs(values[np.isfinite(values)])
     if bound is None or not len(known):
         return None
     zero = values == 0
     # An H whose sign is rounding is 0 already; its size tells that it is not so exactly.
-    settled = zero & (np.nan_to_num(analysis._column("h")) != 0) if plain in _SIGNED else np.zeros(len(values), bool)
+    settled = zero & (np.nan_to_num(analysis.computed("h")) != 0) if plain in _SIGNED else np.zeros(len(values), bool)
     rounding = _Rounding(analysis)
     found = np.zeros(len(values))
     if known.any():
@@ -93,7 +108,7 @@ class _Rounding:
     """Bounds in the unit of computation, for H = κ₁ + κ₂."""
 
     def __init__(self, analysis: Result) -> None:
-        self.column = analysis._column
+        self.column = analysis.computed
         self.area: Floats = analysis.columns["star_area"]
         self.place, self.turned, self.pulled = _turns(analysis)
         self.analysis = analysis
@@ -169,9 +184,7 @@ def _sigmas(analysis: Result) -> tuple[Floats, Floats]:
     """The bounds of K and h."""
     surface = analysis.surface
     noise = float(np.ldexp(_turns(analysis)[0], surface.unit_exponent)) / np.sqrt(12)
-    known = {key: column for key, column in analysis.columns.items() if key not in UNCERTAINTIES}
-    area, settings = analysis.request.area, replace(analysis.settings, noise=noise)
-    found = evaluate(passes, surface, UNCERTAINTIES, area=area, settings=settings, known=known)
+    found = analysis.with_noise(UNCERTAINTIES, noise)
     extreme = 1 + np.sqrt(2 * np.log(max(surface.n_vertices, 2)))
     K, h = (extreme * found[name] for name in UNCERTAINTIES)
     return K + _DEFECT, h

@@ -8,9 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...curvatures.engine import schedule
-from ...curvatures.quantity import CELL_AREA, Quantity
-from ...curvatures.registry import passes
+from ...curvatures.quantity import Quantity
 from ...support.words import counted
 from .colors import ColorScale, parse_range
 
@@ -119,16 +117,11 @@ def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
         told.append("H = κ₁ + κ₂" if chosen.mean == "sum" else "H = (κ₁ + κ₂)/2")
     if any(quantity.signed and quantity.mean_degree for quantity in quantities):
         told[-1] += ", positive where convex"
-    if any(_divided_by_area(quantity, chosen.area) for quantity in quantities):
+    if any(analysis.depends_on_area(quantity.name) for quantity in quantities):
         told.append(f"area {chosen.area}")
     if chosen.weld != "none":
         told.append(f"weld {chosen.weld}")
     return told
-
-
-def _divided_by_area(quantity: Quantity, area: str) -> bool:
-    """Whether it follows from the area that was chosen for `K_density`."""
-    return any(CELL_AREA in one.needs for one in schedule(passes, [quantity.name], area))
 
 
 def ticks(low: float, high: float, room: int, whole: bool = False) -> tuple[list[float], list[str], int]:
