@@ -9,7 +9,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from ..loading.elsewhere import FORMATS
+from ..loading.registry import suffixes
 
 _PACKED = ".gz"
 _WILD = re.compile(r"[*?[]")
@@ -114,7 +114,7 @@ def spellings(part: str) -> list[str]:
     """
     packed = part[-len(_PACKED) :] if part.lower().endswith(_PACKED) else ""
     stem, dot, suffix = part.removesuffix(packed).rpartition(".")
-    if not dot or suffix.lower() not in FORMATS:
+    if not dot or suffix.lower() not in suffixes():
         return [part]
     plain = f"{stem}.{_any_case(suffix)}"
     unpacked = [] if packed else [plain]

@@ -138,8 +138,7 @@ def _report(measures: CurveMeasures, weld: str | float, unit: str | None) -> Cur
     from ..report.curves import model
 
     file = measures.found.file
-    exact = weld == "auto" and file is not None and file.format == "stl"
-    return model(measures, weld="exact" if exact else "none" if weld == "auto" else str(weld), unit=unit)
+    return model(measures, weld=file.weld if file is not None else str(weld), unit=unit)
 
 
 def _show(report: CurveReport, verbose: int) -> None:

@@ -118,7 +118,7 @@ class LazyGroup(click.Group):
 )
 @click.option("--no-config", is_flag=True, help="Ignore configuration files.")
 def cli(config: str | None, no_config: bool) -> None:
-    """Curvatures of triangle meshes (OBJ, PLY, STL) with exact integral identities.
+    """Curvatures of triangle meshes with exact integral identities.
 
     Gauss and mean curvature, areas and Willmore energies at every vertex, after J. M. Sullivan, Curvatures of
     Smooth and Discrete Surfaces. Every run checks the identities that prove them.

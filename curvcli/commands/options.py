@@ -8,8 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..loading.registry import input_formats
+
 if TYPE_CHECKING:
     from ..output.appearance import Appearance
+
+_CUT = ", ".join(one.title for one in input_formats().values() if one.separate_corners)
+"""Formats whose files give each triangle corners of its own."""
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -109,8 +114,7 @@ weld = click.option(
     metavar="auto|none|exact|TOL",
     default="auto",
     show_default=True,
-    help="Merge vertices at equal positions; auto: exact for STL, none for OBJ and PLY; TOL: relative to the bounding "
-    "box.",
+    help=f"Merge vertices at equal positions; auto: exact for {_CUT}, else none; TOL: relative to the bounding box.",
 )
 regions = click.option(
     "--regions",
@@ -129,7 +133,9 @@ unit = click.option(
     "--unit", metavar="NAME", callback=_printable, help="Name of the unit of length, for tables and legends."
 )
 input_format = click.option(
-    "--input-format", type=click.Choice(["obj", "ply", "stl"]), help="Format of the input, overriding its suffix."
+    "--input-format",
+    type=click.Choice(list(input_formats())),
+    help="Format of the input, overriding its suffix.",
 )
 max_faces = click.option("--max-faces", type=click.IntRange(1), help="Refuse meshes with more polygons than this.")
 max_bytes = click.option("--max-bytes", type=click.IntRange(1), help="Refuse files larger than this, unpacked.")

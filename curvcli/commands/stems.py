@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 
+from ..loading.registry import suffixes
+
 # Device names of Windows, whatever follows behind a dot.
 _DEVICES = {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))}
 
@@ -19,9 +21,9 @@ def stem(mesh: str, windows: bool = os.name == "nt") -> str:
     if whole in ("", os.curdir, os.pardir):
         whole = os.path.basename(os.path.abspath(mesh)) or "_"
     name = whole
-    for suffix in (".gz", ".obj", ".ply", ".stl"):
-        if name.lower().endswith(suffix):
-            name = name[: -len(suffix)]
+    for suffix in ("gz", *suffixes()):
+        if name.lower().endswith(f".{suffix}"):
+            name = name[: -len(suffix) - 1]
     if not name.strip(". "):
         name = whole
     if windows and (name.partition(".")[0].strip().casefold() in _DEVICES or name[-1:] in (".", " ")):

@@ -39,10 +39,10 @@ def _exit_codes() -> str:
 
 
 def _formats() -> str:
-    from ..loading.elsewhere import FORMATS as READ
+    from ..loading.registry import input_formats
     from ..output.formats import FORMATS as WRITTEN
 
-    inputs = [(f".{suffix}", f"{suffix.upper()}, also .{suffix}.gz") for suffix in READ]
+    inputs = [(f".{end}", f"{one.title}, also .{end}.gz") for one in input_formats().values() for end in one.endings]
     outputs = [(suffix, one.description) for suffix, one in WRITTEN.items()]
     return (
         _table("Formats that are read", inputs)

@@ -8,13 +8,13 @@ import io
 import os
 import stat
 import sys
-import time
 import zlib
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO
 
 from ..errors import InputError
 from ..support.sinks import wait_for
 from .elsewhere import of_folder, of_missing
+from .stamps import changed, rewritten, stamp, unreadable
 
 _CHUNK = 1 << 24
 _FREE_INFLATION = 1 << 26
@@ -86,31 +86,6 @@ def read_whole(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
     return data
 
 
-class Stamp(NamedTuple):
-    """What tells one state of a regular file from another. The times are those of its content and of its record."""
-
-    device: int
-    inode: int
-    size: int
-    written: int
-    recorded: int
-
-
-def stamp(descriptor: int) -> Stamp | None:
-    """The state of an open file, to be compared once it has been read; None for what is no regular file.
-
-    Times pass in ticks: within the tick of the last change another one would leave no trace, so its end is waited for.
-    """
-    status = os.fstat(descriptor)
-    if not stat.S_ISREG(status.st_mode):
-        return None
-    if hasattr(time, "CLOCK_REALTIME_COARSE"):
-        tick = time.clock_getres(time.CLOCK_REALTIME_COARSE)
-        while -tick < (old := time.clock_gettime(time.CLOCK_REALTIME_COARSE) - status.st_ctime_ns / 1e9) < tick:
-            time.sleep(tick - old)
-    return Stamp(status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns)
-
-
 def _descriptor(file: BinaryIO | io.FileIO) -> int | None:
     """The number of the very file or pipe that a stream hands on; None for streams that make their bytes otherwise."""
     raw = getattr(file, "raw", file)
@@ -172,35 +147,6 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
 def free_inflation(size: int) -> int:
     """Bytes that so many compressed bytes may become where nobody sets a limit: more than any mesh or table needs."""
     return _FREE_INFLATION + _INFLATION * size
-
-
-def changed(expected: int, read: int) -> InputError:
-    """What is said of a file that is not as long as it was."""
-    return InputError(f"{expected} bytes expected, {read} read: the file changed while it was read")
-
-
-def rewritten() -> InputError:
-    """What is said of a file that is no longer the one whose first bytes were read."""
-    return InputError("the file changed while it was read", hint="read it again once its writer is done")
-
-
-def unreadable(error: OSError | ValueError) -> InputError:
-    """What is said of a file that the system does not give."""
-    return InputError(_reason(error))
-
-
-def _reason(error: OSError | ValueError) -> str:
-    match getattr(error, "errno", None):
-        case errno.ENOENT | errno.ENOTDIR:
-            return "no such file"
-        case errno.EACCES | errno.EPERM:
-            return "the file may not be read (permission denied)"
-        case errno.ELOOP:
-            return "the link leads in a circle"
-        case None:
-            return f"not a file name ({error})"
-        case _:
-            return f"the file cannot be read ({os.strerror(error.errno or 0)})"  # type: ignore[union-attr]
 
 
 def _irregular(mode: int, path: str | bytes | os.PathLike[Any]) -> InputError:

@@ -1,4 +1,4 @@
-"""Ways out for what curvcli does not read: other formats, folders, URLs, patterns."""
+"""Hints for input that curvcli does not read: other formats, folders, URLs, patterns."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ import os
 import re
 import shlex
 
-FORMATS = ("obj", "ply", "stl")
-"""The promised formats, which are also the suffixes; each may be followed by .gz."""
+from .registry import input_formats, suffixes
 
-_AS_SUCH = f"--input-format {'|'.join(FORMATS)} reads a file of such a format under another name"
 _MESHIO = "`meshio convert {file} OUT.ply` converts it (`pip install meshio`)"
 _VTK = (
     """`python -c "import pyvista; pyvista.read('{plain}').extract_surface().save('OUT.ply')"` converts it """
@@ -57,9 +55,8 @@ _LOOKED_AT = 1000
 
 
 def known_suffix(path: str) -> str | None:
-    """The promised format that the suffix names, in any case and before .gz; None if it names none."""
-    suffix = suffix_of(path)
-    return suffix if suffix in FORMATS else None
+    """The format that the suffix names, in any case and before .gz; None if it names none."""
+    return suffixes().get(suffix_of(path))
 
 
 def suffix_of(path: str) -> str:
@@ -71,7 +68,9 @@ def suffix_of(path: str) -> str:
 def of_suffix(path: str) -> str:
     """What reads or converts a file with this suffix."""
     words = _WAYS_OUT.get(suffix_of(path))
-    return _AS_SUCH if words is None else words.format(file=_quoted(path), plain=_inside_quotes(path))
+    if words is None:
+        return f"--input-format {'|'.join(input_formats())} reads a file of such a format under another name"
+    return words.format(file=_quoted(path), plain=_inside_quotes(path))
 
 
 def of_folder(path: str) -> str:

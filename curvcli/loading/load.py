@@ -1,13 +1,11 @@
-"""From whatever a caller has — a path, a trimesh, a pair of arrays — to a Surface."""
+"""Surface from a path, a stream, a trimesh.Trimesh, a pair of arrays or another Surface."""
 
 from __future__ import annotations
 
 import os
-import sys
 from typing import Any, BinaryIO, Literal
 
 from ..errors import UsageError
-from ..mesh.file import MeshFile
 from ..mesh.polygons import from_file
 from ..mesh.surface import Orient, Surface
 from .objects import is_stream, refusal
@@ -24,26 +22,28 @@ def load(
     normals: Literal["mesh", "file"] = "mesh",
     texture: bool = False,
 ) -> Surface:
-    """Read an OBJ, PLY or STL file as the surface it describes: rows in file order, seams never cut, nothing repaired.
+    """Read a mesh file as the surface it describes: rows in file order, seams never cut, nothing repaired.
 
-    weld: `auto` (STL by exact position, OBJ and PLY not at all), `none`, `exact`, or a tolerance relative to the
-    diagonal of the bounding box. orient: `outward` turns closed patches that are inside out. normals: `file` also
-    reads the normals of an OBJ file, texture its texture coordinates; those of a PLY file are among its properties.
+    weld: `auto` (by exact position where triangles share no vertices in the file, as in STL, otherwise not at all),
+    `none`, `exact`, or a tolerance relative to the diagonal of the bounding box. orient: `outward` turns closed patches
+    that are inside out. normals: `file` also reads normals, texture texture coordinates, where the format has records
+    of them, as OBJ does; those of a PLY file are among its properties.
     Errors: InputError, one line with file, place, expectation and way out; TypeError for no path and no stream.
     """
-    from .read import read_and_make
+    from .read import read_mesh_file
 
     if not (isinstance(source, str | bytes | os.PathLike) or is_stream(source)):
         raise refusal(source, "a path or a binary stream", "curvcli.analyze accepts")
-    importing = "trimesh" not in sys.modules
-
-    def surface(file: MeshFile) -> Surface:
-        made = from_file(file, orient)
-        if importing:
-            made.compute_topology()  # almost everything needs it, and the import leaves the time
-        return made
-
-    return read_and_make(surface, source, input_format, weld, max_faces, max_bytes, normals, texture)
+    file = read_mesh_file(
+        source,
+        input_format=input_format,
+        weld=weld,
+        max_faces=max_faces,
+        max_bytes=max_bytes,
+        normals=normals,
+        texture=texture,
+    )
+    return from_file(file, orient)
 
 
 def as_surface(

@@ -1,14 +1,14 @@
-"""Which format a file has, by its name and by its content."""
+"""Recognition of the format of a file, by its name and by its content."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from ..errors import InputError, Notice
-from .elsewhere import FORMATS, known_suffix, of_suffix, suffix_of
+from .elsewhere import known_suffix, of_suffix, suffix_of
 from .pieces import Pieces
-from .ply_header import PLY_SIGN
-from .stl import ASCII_SIGN, has_room, is_binary_stl
+from .registry import InputFormat, by_sign, input_formats, suffixes
 
 _ARCHIVES = {
     b"PK\x03\x04": "a ZIP archive",
@@ -27,47 +27,58 @@ _INSTEAD = (
     ),
     (re.compile(rb"\s*+<(?:!doctype\s+html|html)\b", re.IGNORECASE), "a web page", "download the file itself"),
 )
+_OPTION = "--input-format"
 _WIDE_TEXT = re.compile(
     rb"\xff\xfe|\xfe\xff|(?:[\t\n\r -~]\0){4}|(?:\0[\t\n\r -~]){4}|(?:[\t\n\r -~]\0{3}){2}|(?:\0{3}[\t\n\r -~]){2}"
 )
-_V_LINE = re.compile(rb"(?:^|[\r\n])[ \t]*v[ \t]+[-+.\d]\S*[ \t]+[-+.\d]")
 
 
 def format_of_name(path: str) -> str:
     """The format that the suffix promises.
 
-    Errors: InputError for a suffix that is not promised.
+    Errors: InputError for a suffix of no format.
     """
     if known := known_suffix(path):
         return known
     suffix = suffix_of(path)
-    expected = f"{', '.join('.' + name for name in FORMATS)} expected (each also with .gz)"
+    expected = f"{', '.join(f'.{ending}' for ending in suffixes())} expected (each also with .gz)"
     found = f"suffix `.{suffix}` found" if suffix else "no suffix found"
     raise InputError(f"{found}, {expected}", hint=of_suffix(path))
 
 
-def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple[str, tuple[Notice, ...]]:
+def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple[InputFormat, tuple[Notice, ...]]:
     """The format of the content, and a notice where it is not the wanted one.
 
     wanted: what the name says, or `--input-format` if not by_name, None if nothing does.
     Errors: InputError for content that cannot be recognised.
     """
-    start = pieces.ahead()
-    # The first 80 bytes of binary STL are free.
-    if not (is_binary_stl(start, pieces.size) or (wanted == "stl" and has_room(start, pieces.size))):
+    start, formats = pieces.ahead(), input_formats()
+    if not free_start(start, pieces.size, () if wanted is None else (wanted,)):
         _refuse_what_is_known(start)
-    if wanted in ("ply", "stl") and _bears_sign(pieces, wanted):
-        return wanted, ()
-    found = next((kind for kind in ("ply", "stl", "obj") if kind != wanted and _bears_sign(pieces, kind)), None)
-    if found is None:
-        if wanted is None:
-            raise InputError("content not recognised", hint=f"--input-format {'|'.join(FORMATS)} names the format")
-        return wanted, ()
-    if wanted is None:
+    promised = None if wanted is None else formats[wanted]
+    if promised is not None and not promised.weak_sign and promised.has_sign(pieces):
+        return promised, ()
+    found = next((other for other in by_sign() if other is not promised and other.has_sign(pieces)), None)
+    if promised is None:
+        if found is None:
+            raise InputError("content not recognised", hint=f"--input-format {'|'.join(formats)} names the format")
         return found, ()
-    said, way_out = ("its name", f"rename it to .{found}") if by_name else ("--input-format", f"--input-format {found}")
-    message = f"file whose content is {found.upper()}, not {wanted.upper()} as {said} says, and read as such"
+    if found is None or (found.weak_sign and promised.weak_sign and promised.has_sign(pieces)):
+        return promised, ()
+    said, way_out = (
+        ("its name", f"rename it to .{found.endings[0]}") if by_name else (_OPTION, f"{_OPTION} {found.name}")
+    )
+    message = f"file whose content is {found.title}, not {promised.title} as {said} says, and read as such"
     return found, (Notice("wrong_suffix", 1, message, way_out),)
+
+
+def free_start(start: bytes, size: int, promised: Collection[str]) -> bool:
+    """Whether content of this size is of a format, although it may begin as an archive or a web page does.
+
+    promised: names of formats that it may have by its name.
+    """
+    tests = ((format.name in promised, format.any_start) for format in input_formats().values())
+    return any(test is not None and test(start, size, named) for named, test in tests)
 
 
 def _refuse_what_is_known(data: bytes) -> None:
@@ -84,17 +95,3 @@ def _refuse_what_is_known(data: bytes) -> None:
         raise InputError(
             "UTF-16 or UTF-32 text found, ASCII or UTF-8 expected", hint="convert it, for example with iconv"
         )
-
-
-def _bears_sign(pieces: Pieces, kind: str) -> bool:
-    start = pieces.ahead()
-    if kind == "ply":
-        return bool(PLY_SIGN.match(start))
-    if kind == "stl":
-        if is_binary_stl(start, pieces.size):
-            return True
-        return bool(ASCII_SIGN.match(start)) and (b"facet" in start.lower() or has_room(start, pieces.size))
-    if not _V_LINE.search(start):
-        return False
-    data = pieces.whole()
-    return b"\nf " in data or b"\rf " in data or b"\nf\t" in data

@@ -30,9 +30,8 @@ def welded(mesh: MeshFile, weld: str | float) -> MeshFile:
     """The mesh with its corners at the lowest row of each group, and `welded_to`; its rows stay.
 
     weld: `auto` or `none` (nothing is merged), `exact`, or a tolerance relative to the diagonal of the bounding box.
-    STL is welded exactly as it is read.
     """
-    if weld in ("auto", "none") or (weld == "exact" and mesh.format == "stl"):
+    if weld in ("auto", "none"):
         return mesh
     if weld == "exact":
         first, number = weld_exact(mesh.xyz)

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.testing import assert_array_equal
 
 from curvcli.errors import InputError
+from curvcli.loading.formats.ply.parse import parse_ply
+from curvcli.loading.formats.stl.parse import parse_stl
 from curvcli.loading.pieces import Pieces
-from curvcli.loading.ply import parse_ply
-from curvcli.loading.stl import parse_stl
 from curvcli.mesh.file import MeshFile
 
 PARSERS = {"ply": parse_ply, "stl": parse_stl}

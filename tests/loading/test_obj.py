@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from curvcli.errors import InputError
 from curvcli.loading import text
-from curvcli.loading.obj import parse_obj
+from curvcli.loading.formats.obj.parse import parse_obj
 from curvcli.mesh.polygons import from_file
 from tests.loading.spelling import Meant, meant, obj_text, polygons, same
 

@@ -91,7 +91,6 @@ def test_the_hash_is_that_of_the_file_however_it_is_read(tmp_path: Path, end: by
 
 
 def test_binary_content_needs_no_reader_of_text(tmp_path: Path) -> None:
-    """Where trimesh is there already; its import leaves the time for another."""
     points = np.random.default_rng(1).standard_normal((30_000, 3)).astype("<f4")
     faces = np.empty(10_000, [("size", "u1"), ("corners", "<i4", 3)])
     faces["size"], faces["corners"] = 3, np.arange(30_000).reshape(-1, 3)
@@ -99,7 +98,7 @@ def test_binary_content_needs_no_reader_of_text(tmp_path: Path) -> None:
     head = head[: head.index(b"end_header\n") + 11]
     (tmp_path / "large.ply").write_bytes(head + points.tobytes() + faces.tobytes())
     program = (
-        "import sys, trimesh\nfrom curvcli.loading.read import read_mesh_file\n"
+        "import sys\nfrom curvcli.loading.read import read_mesh_file\n"
         "mesh = read_mesh_file('large.ply')\nprint(mesh.polygons, float(mesh.xyz[1, 2]), 'polars' in sys.modules)"
     )
     ran = subprocess.run(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from curvcli.errors import InputError
 from curvcli.loading import text
-from curvcli.loading.ply_header import parse_header
+from curvcli.loading.formats.ply.header import parse_header
 from tests.loading.parsing import parsed
 from tests.loading.spelling import PLY_NAMES, Meant, meant, ply_file, polygons, same
 

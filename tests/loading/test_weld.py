@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from curvcli.errors import InputError
-from curvcli.loading.obj import parse_obj
+from curvcli.loading.formats.obj.parse import parse_obj
 from curvcli.mesh import welding as weld
 from curvcli.mesh.welding import weld_exact, weld_within, welded
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.loading.ply_header import parse_header
+from curvcli.loading.formats.ply.header import parse_header
 from curvcli.output.meshes.names import fitting, one_word, xml_name
 from curvcli.output.meshes.ply import write_ply
 from curvcli.output.meshes.vtk import write_vtk

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import InputError
-from .text import decode
+from ....errors import InputError
+from ...text import decode
 
 _TYPES = {
     "char": "i1",
@@ -34,7 +34,6 @@ _TYPES = {
 _ORDER = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
 HEADER_END = re.compile(rb"[\r\n]end_header[ \t]*(\r\n|\n|\r)")
 _MAGIC = re.compile(rb"ply[ \t]*(\r\n|\n|\r)")
-PLY_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]*[\r\n]")
 CORNERS = ("vertex_indices", "vertex_index")
 """Names of the list of corners of a face."""
 TOO_SMALL = "if a count in the header is too small, elements are missing"

@@ -8,11 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError, Notice
-from ..support.words import number_of, pluralize
-from .ply_header import CORNERS, TOO_SMALL, Element, Header, Property
-from .ply_rows import Columns, empty_columns
-from .text import (
+from ....errors import InputError, Notice
+from ....support.words import number_of, pluralize
+from ...text import (
     NEWLINE,
     Untidy,
     drop_empty_lines,
@@ -23,6 +21,8 @@ from .text import (
     separates,
     tidy,
 )
+from .header import CORNERS, TOO_SMALL, Element, Header, Property
+from .rows import Columns, empty_columns
 
 
 def read_text_rows(text: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
-from .text import BLANK, NEWLINE, Records, Untidy, line_starts, pick_lines, read_records, tidy, without_comments
+from ....errors import InputError
+from ...text import BLANK, NEWLINE, Records, Untidy, line_starts, pick_lines, read_records, tidy, without_comments
 
 
 @dataclass(frozen=True)

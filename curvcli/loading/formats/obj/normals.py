@@ -7,9 +7,9 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
-from .obj_lines import ObjLines
-from .text import pick_lines, read_records
+from ....errors import InputError
+from ...text import pick_lines, read_records
+from .lines import ObjLines
 
 _VN = ord("v") + 256 * ord("n")
 # Corners as the faces name them: v/vt/vn and v//vn keep the last number, v and v/vt have none.

@@ -7,9 +7,9 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
-from .obj_lines import ObjLines
-from .text import pick_lines, read_records
+from ....errors import InputError
+from ...text import pick_lines, read_records
+from .lines import ObjLines
 
 _VT = ord("v") + 256 * ord("t")
 # Corners as the faces name them: v/vt and v/vt/vn keep the second number, v and v//vn have none.

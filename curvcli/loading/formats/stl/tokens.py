@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError, Notice
-from ..support.words import pluralize
-from .limits import check_faces
-from .text import BLANK, NEWLINE, read_tokens, separates
+from ....errors import InputError, Notice
+from ....support.words import pluralize
+from ...limits import check_faces
+from ...text import BLANK, NEWLINE, read_tokens, separates
 
 Places = NDArray[np.intp]
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
-from ..support.blocks import slices
-from ..support.words import number_of
-from .pieces import Pieces
-from .ply_header import Element, Property
+from ....errors import InputError
+from ....support.blocks import slices
+from ....support.words import number_of
+from ...pieces import Pieces
+from .header import Element, Property
 
 
 @dataclass

@@ -7,18 +7,18 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError, Notice
-from ..mesh.file import MeshFile
-from ..mesh.welding import weld_exact
-from ..support.blocks import slices
-from ..support.words import number_of, pluralize
-from .limits import check_faces
-from .pieces import Pieces
-from .stl_tokens import read_ascii_tokens
-from .text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy, without_comments
+from ....errors import InputError, Notice
+from ....mesh.file import MeshFile
+from ....mesh.welding import weld_exact
+from ....support.blocks import slices
+from ....support.words import number_of, pluralize
+from ...limits import check_faces
+from ...pieces import Pieces
+from ...text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy, without_comments
+from .sign import ASCII_SIGN, HEADER, announced_size, has_room
+from .tokens import read_ascii_tokens
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-_HEADER = 84
 _TEXT = "it is text, and text that is STL begins with `solid`"
 # A name may hold any word, but no facet.
 _SHARED = re.compile(
@@ -28,7 +28,6 @@ _VERTEX_BEHIND = re.compile(rb"(?im)^(?!(?:end)?solid\b).* vertex\b")
 # The least lengths of a line with a facet behind other words, and behind a facet.
 _FACET_BEHIND = len(b"solid facet outer")
 _FULL_FACET = len(b"facet outer loop vertex 0 0 0 vertex 0 0 0 vertex 0 0 0 endloop endfacet facet") - 1
-ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+solid\b", re.IGNORECASE)
 
 
 def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None) -> MeshFile:
@@ -45,7 +44,7 @@ def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None
         if b"\0" in data:
             hint = (
                 "it begins with `solid` as text does, and as binary STL its counter asks for "
-                f"{_announced_size(data)} bytes, not {len(data)}"
+                f"{announced_size(data)} bytes, not {len(data)}"
             )
         xyz, notices = _read_ascii(data, max_faces)
     else:
@@ -60,37 +59,18 @@ def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None
     return MeshFile("stl", np.ascontiguousarray(xyz, np.float64), corners, notices=notices)
 
 
-def is_binary_stl(start: bytes, size: int) -> bool:
-    """Whether content of this size, with this start, is as long as the counter of binary STL says.
-
-    That decides, whatever the header says; other content may be cut off, or text (`ASCII_SIGN`).
-    """
-    return size >= _HEADER and _announced_size(start) == size
-
-
-def has_room(start: bytes, size: int) -> bool:
-    """Whether content of this size, with this start, has room for the facets that the counter of binary STL announces,
-    at least one: binary STL, possibly with bytes after the last facet."""
-    return size >= _HEADER and _HEADER < _announced_size(start) <= size
-
-
-def _announced_size(start: bytes | memoryview) -> int:
-    """The size of a binary STL file with the number of facets that the counter holds."""
-    return _HEADER + 50 * int.from_bytes(start[80:_HEADER], "little")
-
-
 def _read_binary(pieces: Pieces, max_faces: int | None) -> tuple[NDArray[np.float32], tuple[Notice, ...]]:
     size = pieces.left
-    if size < _HEADER:
+    if size < HEADER:
         raise InputError(
-            f"{number_of(size, 'byte')} found, at least {_HEADER} expected, or text that begins with `solid`"
+            f"{number_of(size, 'byte')} found, at least {HEADER} expected, or text that begins with `solid`"
         )
-    header = pieces.take(_HEADER)
-    count = (_announced_size(header) - _HEADER) // 50
-    missing = _announced_size(header) - size
+    header = pieces.take(HEADER)
+    count = (announced_size(header) - HEADER) // 50
+    missing = announced_size(header) - size
     if missing > 0:
         raise InputError(
-            f"{number_of(count, 'facet')} announced, room for {(size - _HEADER) // 50} found: "
+            f"{number_of(count, 'facet')} announced, room for {(size - HEADER) // 50} found: "
             f"{number_of(missing, 'byte')} {pluralize(missing, '[is|are]')} missing",
             place="byte 80",
             hint=None if b"\0" in bytes(header) + pieces.whole() else _TEXT,

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError, Notice
-from ..mesh.file import MeshFile
-from ..support.words import pluralize
-from .limits import check_faces
-from .pieces import Pieces
-from .ply_header import CORNERS, HEADER_END, TOO_SMALL, Element, Header, parse_header
-from .ply_rows import Columns, read_binary_rows
-from .ply_text import read_text_rows
+from ....errors import InputError, Notice
+from ....mesh.file import MeshFile
+from ....support.words import pluralize
+from ...limits import check_faces
+from ...pieces import Pieces
+from .header import CORNERS, HEADER_END, TOO_SMALL, Element, Header, parse_header
+from .rows import Columns, read_binary_rows
+from .text import read_text_rows
 
 
 def parse_ply(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:

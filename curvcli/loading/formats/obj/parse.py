@@ -8,14 +8,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError, Notice
-from ..mesh.file import NO_POLYLINES, Labels, MeshFile, Polylines
-from ..support.words import number_of, pluralize
-from .limits import check_faces
-from .obj_lines import ObjLines, split_lines, tidy_lines
-from .obj_normals import corner_normals
-from .obj_texture import corner_texture
-from .text import NEWLINE, Records, Untidy, decode, plain_lines
+from ....errors import InputError, Notice
+from ....mesh.file import NO_POLYLINES, Labels, MeshFile, Polylines
+from ....support.words import number_of, pluralize
+from ...limits import check_faces
+from ...text import NEWLINE, Records, Untidy, decode, plain_lines
+from .lines import ObjLines, split_lines, tidy_lines
+from .normals import corner_normals
+from .texture import corner_texture
 
 _LABELS = {b"g": "groups", b"o": "objects", b"usemtl": "materials"}
 _SILENT = frozenset(b"vn vt s mtllib mg usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj".split())

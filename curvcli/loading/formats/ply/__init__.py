@@ -1,0 +1,40 @@
+"""PLY: elements of vertices, faces and triangle strips, with properties of any name."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from ...registry import InputFormat, Wanted, register
+
+if TYPE_CHECKING:
+    from ....mesh.file import MeshFile
+    from ...pieces import Pieces
+
+_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]*[\r\n]")
+
+
+def has_sign(pieces: Pieces) -> bool:
+    """Whether the first line is `ply`."""
+    return bool(_SIGN.match(pieces.ahead()))
+
+
+def _parse(pieces: Pieces, wanted: Wanted) -> MeshFile:
+    from .parse import parse_ply
+
+    return parse_ply(pieces, max_faces=wanted.max_faces)
+
+
+register(
+    InputFormat(
+        name="ply",
+        parse=_parse,
+        has_sign=has_sign,
+        encodings="text, binary of either byte order",
+        rows="`vertex` elements",
+        digits="as the type says",
+        keeps="scalar properties of vertices and faces",
+        labels="integer face properties",
+        polygons="triangulated; `tristrips` too",
+    )
+)

@@ -1,0 +1,46 @@
+"""STL, text or binary: triangles that share no vertices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...registry import InputFormat, Wanted, register
+from .sign import ASCII_SIGN, has_room, is_binary_stl
+
+if TYPE_CHECKING:
+    from ....mesh.file import MeshFile
+    from ...pieces import Pieces
+
+
+def has_sign(pieces: Pieces) -> bool:
+    """Whether the content is as long as the counter of binary STL says, or begins with `solid` and has a facet."""
+    start = pieces.ahead()
+    if is_binary_stl(start, pieces.size):
+        return True
+    return bool(ASCII_SIGN.match(start)) and (b"facet" in start.lower() or has_room(start, pieces.size))
+
+
+def any_start(start: bytes, size: int, promised: bool) -> bool:
+    """Whether content is binary STL, the first 80 bytes of which are free."""
+    return is_binary_stl(start, size) or (promised and has_room(start, size))
+
+
+def _parse(pieces: Pieces, wanted: Wanted) -> MeshFile:
+    from .parse import parse_stl
+
+    return parse_stl(pieces, weld=wanted.merge, max_faces=wanted.max_faces)
+
+
+register(
+    InputFormat(
+        name="stl",
+        parse=_parse,
+        has_sign=has_sign,
+        any_start=any_start,
+        separate_corners=True,
+        encodings="text, binary",
+        rows="one per distinct position, in order of first appearance",
+        digits="float32 in binary files, doubles in text",
+        polygons="triangles only",
+    )
+)

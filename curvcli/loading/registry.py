@@ -1,0 +1,110 @@
+"""Registry of input formats: each is one module or folder of `formats`, found there by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..errors import MissingExtraError
+
+if TYPE_CHECKING:
+    from ..mesh.file import MeshFile
+    from .pieces import Pieces
+
+
+class Wanted(NamedTuple):
+    """Options of a parser.
+
+    merge: merge equal positions, where the format gives each triangle corners of its own. max_faces: refuse more.
+    normals, texture: read normals, texture coordinates, where the format has records of them.
+    """
+
+    merge: bool = True
+    max_faces: int | None = None
+    normals: bool = False
+    texture: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class InputFormat:
+    """A format that meshes are read in.
+
+    name: for --input-format, messages and, with a dot, the suffix. suffixes: all of them without the dot, if there are
+    others. parse: the content of a file as a MeshFile whose `format` is the name; None: trimesh's own loader
+    for the name reads it. has_sign: whether the content bears
+    the sign of the format; it takes no bytes. weak_sign: text of other formats may bear it too, so theirs decide first.
+    any_start: whether content of this size is of the format although it begins as an archive or a web page does; the
+    last argument says that its name promises the format. separate_corners: triangles share no vertices in the file, so
+    `--weld auto` merges equal positions exactly. encodings, rows, digits, keeps, labels, polygons, curves: cells of the
+    table in docs/formats.md. library, extra: module that the parser needs, and the extra of curvcli that installs it.
+    """
+
+    name: str
+    has_sign: Callable[[Pieces], bool]
+    parse: Callable[[Pieces, Wanted], MeshFile] | None = None
+    suffixes: tuple[str, ...] = ()
+    weak_sign: bool = False
+    any_start: Callable[[bytes, int, bool], bool] | None = None
+    separate_corners: bool = False
+    encodings: str = "text"
+    rows: str = "vertices"
+    digits: str = "doubles"
+    keeps: str = "nothing"
+    labels: str = "none"
+    polygons: str = "triangulated"
+    curves: str = "none"
+    library: str | None = None
+    extra: str | None = None
+
+    @property
+    def title(self) -> str:
+        """The name in sentences."""
+        return self.name.upper()
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """All suffixes without the dot, in lower case."""
+        return self.suffixes or (self.name,)
+
+    def require(self) -> None:
+        """Errors: MissingExtraError where the library that the parser needs is not installed."""
+        if self.library is not None and find_spec(self.library) is None:
+            package = f"'curvcli[{self.extra}]'" if self.extra else self.library
+            raise MissingExtraError(f"{self.title} needs {self.library}: `pip install {package}`")
+
+
+_registered: dict[str, InputFormat] = {}
+
+
+def register(format: InputFormat) -> InputFormat:
+    """Add a format. Errors: ValueError for a name or suffix that another format has."""
+    taken = {ending for other in _registered.values() for ending in (other.name, *other.endings)}
+    if twice := taken & {format.name, *format.endings}:
+        raise ValueError(f"two input formats named {', '.join(sorted(twice))}")
+    _registered[format.name] = format
+    return format
+
+
+@cache
+def input_formats() -> Mapping[str, InputFormat]:
+    """All formats by name, in alphabetical order."""
+    folder = import_module(".formats", __package__)
+    for found in iter_modules(folder.__path__):
+        import_module(f"{folder.__name__}.{found.name}")
+    return dict(sorted(_registered.items()))
+
+
+def by_sign() -> list[InputFormat]:
+    """All formats in the order in which content is compared with their signs."""
+    return sorted(input_formats().values(), key=lambda format: format.weak_sign)
+
+
+@cache
+def suffixes() -> Mapping[str, str]:
+    """The name of the format of each suffix, without the dot."""
+    return {ending: format.name for format in input_formats().values() for ending in format.endings}
