@@ -14,8 +14,8 @@ from click.testing import CliRunner
 import curvcli
 from curvcli.commands.main import cli
 from curvcli.errors import InputError, OutputError, UsageError
-from tests import exact_values, meshes
-from tests.columns import PUBLIC
+from tests.helpers import exact_values, meshes
+from tests.helpers.columns import PUBLIC
 
 
 def test_the_names_promised() -> None:

@@ -24,9 +24,9 @@ from curvcli.commands.main import cli
 from curvcli.curvatures.quantity import Element
 from curvcli.mesh.surface import Surface
 from curvcli.report.model import encode
-from tests import exact_values, meshes
-from tests.cli.program import environment
-from tests.columns import PUBLIC
+from tests.helpers import exact_values, meshes
+from tests.helpers.cli.program import environment
+from tests.helpers.columns import PUBLIC
 
 # Everything a program may have set for itself, before curvcli is imported and after the last call.
 TRACES = """

@@ -73,7 +73,8 @@ curvature of the minimal surface, which is 0 there but for rounding.
 EVOLVER = """## The Surface Evolver
 
 K. Brakke's program has the energies built in. Totals on eight bodies of genus 0, 1 and 2, regular, irregular and
-jittered; its mean curvature is the average, hence the factors. `tests/evolver` compares every vertex as well.
+jittered; its mean curvature is the average, hence the factors.
+`tests/properties/test_evolver.py` compares every vertex as well.
 
 | its method | ours | largest relative difference |
 |---|---|---|

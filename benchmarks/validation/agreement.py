@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import curvcli
 from curvcli.api import Analysis
-from tests import exact_values, meshes
+from tests.helpers import exact_values, meshes
 
 from .. import peers
 
@@ -92,7 +92,7 @@ class Row:
 
 def evolver() -> list[tuple[str, str, float]] | None:
     """Named method, our total, worst relative difference over the bodies; None where the Evolver is not installed."""
-    from tests.evolver import test_evolver as tier
+    from tests.properties import test_evolver as tier
 
     if tier.PROGRAM is None:
         return None

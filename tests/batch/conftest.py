@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import Ended
-from tests.cli.within import within_this
-from tests.exact_values import MESHES
+from tests.helpers.cli.program import Ended
+from tests.helpers.cli.within import within_this
+from tests.helpers.exact_values import MESHES
 
 GOOD = {"a.obj": "cube", "a.ply": "annulus", "deep/er/a.ply": "annulus", "deep/m.obj": "mobius"}
 BAD = {"deep/empty.ply": b"", "junk.stl": b"junk", "readme.md": b"no mesh", "z.ply": b"ply\nformat ascii 1.0\n"}

@@ -24,8 +24,8 @@ from curvcli.batch.model import Limits, Row, Settings
 from curvcli.batch.plan import plan
 from curvcli.errors import InputError, OutputError, exit_code
 from tests.batch.conftest import ALL, BAD, GOOD, Run
-from tests.cli.program import environment
-from tests.shared import SHARED, needs_shared
+from tests.helpers.cli.program import environment
+from tests.helpers.shared import SHARED, needs_shared
 
 SAVE = ("--save", "csv,json,ply,edges.csv")
 

@@ -16,9 +16,9 @@ import pytest
 
 import curvcli
 from tests.batch.conftest import polygon
-from tests.cli.program import environment
-from tests.exact_values import MESHES
-from tests.test_plugin import install
+from tests.curvatures.test_plugin import install
+from tests.helpers.cli.program import environment
+from tests.helpers.exact_values import MESHES
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and named pipes are POSIX's")
 

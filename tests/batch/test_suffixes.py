@@ -10,8 +10,8 @@ import pytest
 
 from curvcli.batch.locations import expand
 from curvcli.batch.walk import spellings
-from tests.cli.program import curvcli
-from tests.meshes import tetrahedron
+from tests.helpers.cli.program import curvcli
+from tests.helpers.meshes import tetrahedron
 
 NAMES = ["a.ply", "b.PLY", "c.Ply.gz", "d.PLY.GZ", "e.stl", "f.STL", "g.OBJ.gz", "h.obj", "i.ply.bak", "j.plyx", "k.gz"]
 

@@ -14,7 +14,7 @@ import pytest
 
 from curvcli.batch.plan import plan
 from tests.batch.conftest import Run
-from tests.exact_values import MESHES
+from tests.helpers.exact_values import MESHES
 
 SAVE = ("--save", "csv,ply,json,edges.csv")
 

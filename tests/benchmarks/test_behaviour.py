@@ -10,7 +10,7 @@ import pytest
 
 import curvcli
 from benchmarks import behaviour
-from tests.cli.program import ROOT
+from tests.helpers.cli.program import ROOT
 
 
 @pytest.mark.parametrize("name", behaviour.CASES)

@@ -11,7 +11,7 @@ import pytest
 
 from curvcli.curvatures.catalogue import load_passes
 from curvcli.curvatures.registry import passes
-from tests.cli.program import ROOT
+from tests.helpers.cli.program import ROOT
 
 
 @pytest.mark.parametrize("shape", ["sphere", "plate"])

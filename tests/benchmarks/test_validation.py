@@ -11,7 +11,7 @@ import curvcli
 from benchmarks.validation import __main__ as validation
 from benchmarks.validation import agreement, convergence
 from benchmarks.validation.surfaces import SURFACES
-from tests.cli.program import ROOT
+from tests.helpers.cli.program import ROOT
 
 
 @pytest.mark.parametrize("name", SURFACES)

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.cli.program import curvcli
-from tests.shared import SHARED, needs_shared
+from tests.helpers.cli.program import curvcli
+from tests.helpers.shared import SHARED, needs_shared
 
 pytestmark = needs_shared
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from tests.cli.program import curvcli, wrote
-from tests.shared import SHARED, needs_shared
+from tests.helpers.cli.program import curvcli, wrote
+from tests.helpers.shared import SHARED, needs_shared
 
 pytestmark = needs_shared
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.cli.program import curvcli
-from tests.shared import SHARED, needs_shared
+from tests.helpers.cli.program import curvcli
+from tests.helpers.shared import SHARED, needs_shared
 
 pytestmark = needs_shared
 

@@ -7,8 +7,8 @@ import json
 import pytest
 
 from tests.cases.test_gate import case
-from tests.cli.program import curvcli
-from tests.shared import needs_shared
+from tests.helpers.cli.program import curvcli
+from tests.helpers.shared import needs_shared
 
 pytestmark = needs_shared
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from tests.cli.program import Ended
-from tests.cli.within import within_this
 from tests.curves.shapes import Points, helix, trefoil
+from tests.helpers.cli.program import Ended
+from tests.helpers.cli.within import within_this
 
 
 class Cli:

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from curvcli import analyze
 from curvcli.curves import Boundary, boundary_loops, loop_table
 from curvcli.curves.darboux import Darboux
-from tests import meshes, strategies
-from tests.brute import Complex
-from tests.meshes import Mesh, mesh
+from tests.helpers import meshes, strategies
+from tests.helpers.brute import Complex
+from tests.helpers.meshes import Mesh, mesh
 
 
 def walked(boundary: Boundary) -> list[list[tuple[int, int]]]:

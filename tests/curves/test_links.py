@@ -10,9 +10,9 @@ import pytest
 
 from curvcli.curves.links import links
 from curvcli.curves.polygon import Curves
-from tests.cli.program import DISK
 from tests.curves.conftest import Cli, polyline
 from tests.curves.shapes import Points, random_polygon, regular
+from tests.helpers.cli.program import DISK
 
 X = np.array([1.0, 0.0, 0.0])
 

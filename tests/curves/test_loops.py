@@ -10,9 +10,9 @@ from curvcli import analyze, load
 from curvcli.checks import rules
 from curvcli.curves import Turning, boundary_loops, loop_table
 from curvcli.curves.darboux import Darboux
-from tests import meshes, strategies
-from tests.exact_values import MESHES, expected
-from tests.meshes import Mesh, mesh, of_sample
+from tests.helpers import meshes, strategies
+from tests.helpers.exact_values import MESHES, expected
+from tests.helpers.meshes import Mesh, mesh, of_sample
 
 WITH_LOOPS = [name for name in MESHES if expected(name)["loops"]]
 

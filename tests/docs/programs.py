@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from tests.cli.program import SERVER, environment
+from tests.helpers.cli.program import SERVER, environment
 
 
 def provide(folder: Path, **programs: str) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.docs.pages import ROOT, text
-from tests.output.images import decoded, difference_hash, opengl
+from tests.helpers.images import decoded, difference_hash, opengl
 
 __all__ = ["opengl"]
 

@@ -18,8 +18,8 @@ from curvcli.errors import EXIT_CODES
 from curvcli.report.quantities import public
 from curvcli.samples import names
 from docs.pages import PAGES, PARTS, current
-from tests import meshes
 from tests.docs.pages import NAMES, ROOT, text
+from tests.helpers import meshes
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "README.md"])

@@ -12,8 +12,8 @@ import pytest
 import yaml
 
 from curvcli.report.quantities import public
-from tests.cli.program import environment
 from tests.docs.pages import NAMES, ROOT
+from tests.helpers.cli.program import environment
 
 NEEDED = ("mkdocs", "material", "mkdocstrings", "mkdocstrings_handlers")
 ELSEWHERE = re.compile(r"""<(?:script|link|img|iframe)\b[^>]*\b(?:src|href)=["']?(?:https?:)?//""")

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from tests.fuzz.damage import damaged
 from tests.fuzz.shapes import extreme
 from tests.fuzz.writers import Written, obj, ply, stl, strips, whole
-from tests.loading.spelling import Meant
+from tests.helpers.spelling import Meant
 
 TABLES = ("edges", "faces", "loops", "components")
 

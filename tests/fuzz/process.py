@@ -6,9 +6,9 @@ import os
 from pathlib import Path
 from tempfile import TemporaryFile
 
-from tests.cli.program import address
-from tests.cli.server import ask
 from tests.fuzz.contract import Ran
+from tests.helpers.cli.program import address
+from tests.helpers.cli.server import ask
 
 SECONDS = 60
 

@@ -15,9 +15,9 @@ import pytest
 
 import curvcli
 from curvcli.loading.pieces import Pieces
-from tests.cli.program import environment, served
 from tests.fuzz.contract import in_process
-from tests.loading.spelling import binary_stl
+from tests.helpers.cli.program import environment, served
+from tests.helpers.spelling import binary_stl
 from tests.loading.test_ply import binary_ply
 from tests.loading.test_stl import TETRAHEDRON
 

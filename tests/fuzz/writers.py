@@ -9,7 +9,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from tests.fuzz.shapes import shapes
-from tests.loading.spelling import Meant, ascii_stl, binary_stl, obj_text, ply_file
+from tests.helpers.spelling import Meant, ascii_stl, binary_stl, obj_text, ply_file
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import pytest
 
 from curvcli.errors import InputError
 from curvcli.loading.read import read_mesh_file
-from tests.loading.spelling import binary_stl
+from tests.helpers.spelling import binary_stl
 from tests.loading.test_ply import ascii_ply
 from tests.loading.test_stl import TETRAHEDRON
 

@@ -17,10 +17,10 @@ import trimesh
 
 import curvcli
 from curvcli.loading.read import read_mesh_file
-from tests.cli.program import CUBE
-from tests.cli.program import curvcli as program
+from tests.helpers.cli.program import CUBE
+from tests.helpers.cli.program import curvcli as program
+from tests.helpers.meshes import tetrahedron
 from tests.loading.files import OBJ, refused
-from tests.meshes import tetrahedron
 
 BODY = tetrahedron()
 POINTS, FACES = BODY.points, BODY.faces

@@ -13,7 +13,7 @@ from curvcli.errors import InputError
 from curvcli.loading import text
 from curvcli.loading.formats.obj.parse import parse_obj
 from curvcli.mesh.polygons import from_file
-from tests.loading.spelling import Meant, meant, obj_text, polygons, same
+from tests.helpers.spelling import Meant, meant, obj_text, polygons, same
 
 SQUARE = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 

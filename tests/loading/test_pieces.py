@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 from curvcli.errors import InputError
 from curvcli.loading.pieces import Pieces
 from curvcli.loading.read import read_mesh_file
-from tests.cli.program import environment
+from tests.helpers.cli.program import environment
+from tests.helpers.spelling import binary_stl, polygons
 from tests.loading.parsing import Small, parsed
-from tests.loading.spelling import binary_stl, polygons
 from tests.loading.test_ply import HEAD, binary_ply
 from tests.loading.test_stl import TETRAHEDRON
 

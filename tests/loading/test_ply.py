@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from curvcli.errors import InputError
 from curvcli.loading import text
 from curvcli.loading.formats.ply.header import parse_header
+from tests.helpers.spelling import PLY_NAMES, Meant, meant, ply_file, polygons, same
 from tests.loading.parsing import parsed
-from tests.loading.spelling import PLY_NAMES, Meant, meant, ply_file, polygons, same
 
 HEAD = """ply
 format {order} 1.0

@@ -18,8 +18,8 @@ from curvcli.errors import InputError, UsageError
 from curvcli.loading import text
 from curvcli.loading.read import read_mesh_file
 from curvcli.mesh.polygons import triangulate
+from tests.helpers.spelling import ascii_stl
 from tests.loading.files import CONTENT, OBJ, PLY, STL, refused
-from tests.loading.spelling import ascii_stl
 from tests.loading.test_ply import STRIPS
 from tests.loading.test_stl import TETRAHEDRON
 

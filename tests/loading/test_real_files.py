@@ -13,7 +13,7 @@ from curvcli.errors import InputError
 from curvcli.loading.read import read_mesh_file
 from curvcli.mesh.file import MeshFile
 from curvcli.mesh.polygons import from_file, triangulate
-from tests.shared import SHARED, needs_shared
+from tests.helpers.shared import SHARED, needs_shared
 
 pytestmark = needs_shared
 

@@ -11,8 +11,8 @@ import pytest
 
 from curvcli.errors import UsageError
 from curvcli.loading.read import read_mesh_file
+from tests.helpers.spelling import ascii_stl, binary_stl
 from tests.loading.files import CONTENT, OBJ, refused
-from tests.loading.spelling import ascii_stl, binary_stl
 from tests.loading.test_stl import TETRAHEDRON
 
 

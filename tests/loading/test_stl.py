@@ -12,8 +12,8 @@ from hypothesis.extra.numpy import arrays
 
 from curvcli.errors import InputError
 from curvcli.loading import text
+from tests.helpers.spelling import ascii_stl, binary_stl
 from tests.loading.parsing import parsed
-from tests.loading.spelling import ascii_stl, binary_stl
 
 TETRAHEDRON = np.array(
     [

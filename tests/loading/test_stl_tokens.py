@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from curvcli.errors import InputError
 from curvcli.loading import text
+from tests.helpers.spelling import ascii_stl
 from tests.loading.parsing import parsed
-from tests.loading.spelling import ascii_stl
 from tests.loading.test_stl import CORNERS, TETRAHEDRON
 
 FACETS = [

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from curvcli.analysis import result
 from curvcli.commands.main import cli
 from curvcli.curvatures.catalogue import UNCERTAINTIES
-from tests.meshes import of_sample
+from tests.helpers.meshes import of_sample
 
 OUTPUTS = (
     ["-o", "x.csv", "--table", "edges=e.csv", "--table", "faces=f.csv", "--table", "components=c.csv"],

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from curvcli.output.meshes.write import write_mesh
 from curvcli.samples import get
-from tests import meshes
-from tests.meshes import Mesh, fan, icosphere, joined, mesh
+from tests.helpers import meshes
+from tests.helpers.meshes import Mesh, fan, icosphere, joined, mesh
 
 
 def write(name: str, size: int, path: Path) -> Path:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import CUBE, DISK, curvcli, environment, served, start
+from tests.helpers.cli.program import CUBE, DISK, curvcli, environment, served, start
 from tests.process.watch import feed, until
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds time and memory alike")

@@ -16,8 +16,8 @@ import curvcli
 from curvcli.errors import InputError
 from curvcli.loading.tables import read_stored_table
 from curvcli.mesh import welding as weld
-from tests.cli.program import CUBE, command, environment
-from tests.cli.program import curvcli as run
+from tests.helpers.cli.program import CUBE, command, environment
+from tests.helpers.cli.program import curvcli as run
 
 MEGABYTE = 1 << 20
 

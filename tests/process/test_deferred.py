@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from curvcli.commands.deferred import NEVER_USED
-from tests.cli.program import ROOT, environment
+from tests.helpers.cli.program import ROOT, environment
 
 USED = """
 import sys

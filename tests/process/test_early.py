@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import environment
+from tests.helpers.cli.program import environment
 
 # What the script that pip writes does, but for a finder that interrupts when a certain module is looked for.
 SCRIPT = """

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 import trimesh
 
-from tests.cli.program import curvcli as run
-from tests.cli.program import environment, wrote
+from tests.helpers.cli.program import curvcli as run
+from tests.helpers.cli.program import environment, wrote
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere libraries may not survive a fork")
 

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from curvcli.commands.main import cli
-from tests.cli.program import environment
+from tests.helpers.cli.program import environment
 from tests.process.meshes import HOSTILE
 
 WORDS = re.compile(r"(?<![A-Za-z])[-+]?(?:nan|inf|infinity|1\.#\w+)(?![A-Za-z])", re.IGNORECASE)

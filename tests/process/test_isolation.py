@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import ROOT, command, environment
+from tests.helpers.cli.program import ROOT, command, environment
 
 SOURCES = sorted((ROOT / "curvcli").rglob("*.py"))
 

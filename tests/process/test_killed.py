@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.cli.program import curvcli, environment, start
+from tests.helpers.cli.program import curvcli, environment, start
 from tests.process.watch import feed, until
 
 OLD = b"what was there\n" * 1000

@@ -19,8 +19,8 @@ from curvcli.mesh.surface import Surface
 from curvcli.mesh.welding import weld_exact
 from curvcli.report.build import model
 from curvcli.report.verdict import proof
-from tests import meshes
-from tests.meshes import Mesh
+from tests.helpers import meshes
+from tests.helpers.meshes import Mesh
 from tests.process.meshes import HOSTILE, cut_apart, scaled, seam, shifted
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.cli.program import command, environment
+from tests.helpers.cli.program import command, environment
 
 SCARCE = b"curvcli: out of memory; use a machine with more memory or a smaller mesh\n"
 

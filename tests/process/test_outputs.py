@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import command, curvcli, environment, served, start
-from tests.meshes import ellipsoid, torus
+from tests.helpers.cli.program import command, curvcli, environment, served, start
+from tests.helpers.meshes import ellipsoid, torus
 from tests.process.watch import feed
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.program import command, environment
+from tests.helpers.cli.program import command, environment
 
 NAMES = ("k.csv", "k.tsv", "k.parquet", "k.npz", "k.ply", "k.obj", "k.json")
 TABLES = ("edges", "faces", "components")

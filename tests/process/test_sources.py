@@ -24,9 +24,9 @@ from curvcli.loading.labels import read_labels
 from curvcli.loading.pieces import Pieces
 from curvcli.loading.tables import read_stored_table
 from curvcli.report.compare.stored import read_report
-from tests.cli.program import CUBE, command, environment
-from tests.cli.program import curvcli as run
-from tests.cli.within import within_this
+from tests.helpers.cli.program import CUBE, command, environment
+from tests.helpers.cli.program import curvcli as run
+from tests.helpers.cli.within import within_this
 from tests.process.watch import feed
 
 

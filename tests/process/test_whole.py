@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from tests.cli.program import CUBE, DISK, command, curvcli, environment, served, start
+from tests.helpers.cli.program import CUBE, DISK, command, curvcli, environment, served, start
 from tests.process.watch import unread, until
 
 # What each command writes to stdout, by every way that text and bytes take.

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import pytest
 
-from tests.cli.program import ROOT, environment
+from tests.helpers.cli.program import ROOT, environment
 
 
 class Built(NamedTuple):

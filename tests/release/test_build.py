@@ -18,7 +18,7 @@ from trove_classifiers import classifiers
 
 import curvcli
 from curvcli.commands.schemas import SCHEMAS
-from tests.cli.program import ROOT, environment
+from tests.helpers.cli.program import ROOT, environment
 from tests.release.conftest import Built
 
 TORUS = ROOT / "sample_meshes" / "torus.obj"

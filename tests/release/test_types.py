@@ -9,7 +9,7 @@ import sysconfig
 import venv
 from pathlib import Path
 
-from tests.cli.program import environment
+from tests.helpers.cli.program import environment
 
 # Every wrong line is marked: were the package untyped, its marks would be superfluous, which is an error too.
 PROGRAM = """

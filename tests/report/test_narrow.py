@@ -20,7 +20,7 @@ from curvcli.report.terminal import check as check_text
 from curvcli.report.terminal import compare as compare_text
 from curvcli.report.terminal import curves as curves_text
 from curvcli.report.terminal import maps as maps_text
-from tests.meshes import of_sample
+from tests.helpers.meshes import of_sample
 
 SENTENCE = "a sentence of several words that says what holds on every mesh and what does not, as identities do"
 

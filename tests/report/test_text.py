@@ -15,7 +15,7 @@ from curvcli.api import Analysis
 from curvcli.checks import Check
 from curvcli.report.terminal import summary as text
 from curvcli.report.terminal.fitting import fitting, plain_table
-from tests.meshes import Mesh, of_sample
+from tests.helpers.meshes import Mesh, of_sample
 
 
 @cache

@@ -9,7 +9,7 @@ import pytest
 
 import curvcli
 from curvcli.samples import get, names
-from tests.cli.program import curvcli as run
+from tests.helpers.cli.program import curvcli as run
 
 WITH_NORMALS = [name for name in names() if "normal_x" in get(name)().exact]
 
