@@ -1,1 +1,1 @@
-"""Triangle meshes: points, faces and everything combinatorial that follows from them."""
+"""Triangle meshes: points, faces and their combinatorics."""

@@ -1,4 +1,4 @@
-"""Points and faces as callers hand them in, made into what a surface keeps."""
+"""Conversion of given points and faces to the frozen arrays of a surface."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _Found = TypeVar("_Found", bound=NDArray[Any])
 
 
 def as_components(points: ArrayLike) -> NDArray[np.float64]:
-    """(V, 3) numbers as frozen (3, V) float64, one contiguous row per coordinate.
+    """Convert (V, 3) numbers to frozen (3, V) float64, one contiguous row per coordinate.
 
     Errors: InputError for another shape or type, or masked entries.
     """
@@ -48,7 +48,7 @@ def _as_array(given: ArrayLike, what: str, expected: str) -> NDArray[Any]:
 
 
 def _kept(given: NDArray[Any], kind: type[np.generic]) -> bool:
-    """Whether an array can be kept as it is: of this type and layout, and nobody can change it any more."""
+    """Test whether an array needs no copy: it has this type and layout, and it is read-only."""
     owner: Any = given
     while isinstance(owner, np.ndarray):
         if owner.flags.writeable:
@@ -58,7 +58,7 @@ def _kept(given: NDArray[Any], kind: type[np.generic]) -> bool:
 
 
 def frozen(find: Callable[[Any], _Found]) -> Callable[[Any], _Found]:
-    """The function, its array read-only: it is kept, and whoever asks next must find it as it was."""
+    """Make the array that a function returns read-only, for functions with cached results."""
 
     @wraps(find)
     def found(owner: Any) -> _Found:
@@ -70,7 +70,7 @@ def frozen(find: Callable[[Any], _Found]) -> Callable[[Any], _Found]:
 
 
 def freeze(array: NDArray[Any]) -> None:
-    """Make an array read-only, and all that it is a view of: nobody will change them, and nobody need copy them."""
+    """Make an array and the arrays below its view read-only, so that sharing needs no copies."""
     owner: Any = array
     while isinstance(owner, np.ndarray):
         owner.setflags(write=False)
@@ -78,9 +78,9 @@ def freeze(array: NDArray[Any]) -> None:
 
 
 def as_triangles(faces: ArrayLike, vertices: int) -> Index:
-    """(F, 3) indices as int32, in range and at least one.
+    """Convert (F, 3) indices to int32; at least one row, all indices in range.
 
-    Errors: InputError for another shape or type, masked entries, no face, or a corner that does not exist.
+    Errors: InputError for another shape or type, masked entries, no face, or an index out of range.
     """
     given = _as_array(faces, "faces", "indices of shape (F, 3)")
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
@@ -91,7 +91,7 @@ def as_triangles(faces: ArrayLike, vertices: int) -> Index:
     triangles = given if kept else np.empty(given.shape, np.int32)
 
     def take_over(block: slice) -> bool:
-        """Whether the corners of these faces exist."""
+        """Convert a block of faces; False if an index is out of range."""
         part = given[block]
         exist = bool(part.min() >= 0 and part.max() < vertices)
         if exist and not kept:
@@ -108,7 +108,7 @@ def as_triangles(faces: ArrayLike, vertices: int) -> Index:
 
 
 def with_repeated_corner(triangles: Index) -> NDArray[np.intp]:
-    """The triangles that have a corner twice."""
+    """Indices of the triangles with a repeated corner."""
 
     def find(block: slice) -> NDArray[np.intp]:
         a, b, c = triangles[block].T

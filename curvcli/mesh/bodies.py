@@ -1,4 +1,4 @@
-"""Bodies that share vertices, edges or walls, taken apart: each edge with more than two faces becomes edges of two."""
+"""Separation of bodies that share vertices, edges or walls: an edge with 2k faces becomes k edges with two faces."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ Ints = NDArray[np.int64]
 
 
 def split_bodies(surface: Surface) -> Surface:
-    """The surface with vertices of its own for each body, faces in the same order; itself without crowded edges.
+    """Give each body its own vertices, faces in the same order; a surface without n_e > 2 is returned as it is.
 
-    At an edge with more than two faces, two faces of one patch that run opposite ways stay together. Of the others,
-    in the order of their angles round the edge, those stay together that enclose material. Edges where as many faces do
-    not run each way stay as they are.
+    At an edge with n_e > 2, two faces of one patch with opposite half-edges stay together. The other faces, sorted by
+    their angle about the edge, are paired so that each pair encloses material. Edges with unequally many half-edges in
+    the two directions stay as they are.
     """
     crowded = np.flatnonzero(surface.nonmanifold_edges)
     if not len(crowded):
@@ -36,7 +36,7 @@ def split_bodies(surface: Surface) -> Surface:
     mate[left[found[0]]] = left[found[1]]
     one = np.flatnonzero(mate >= 0)
     pairs = [edges.pairs, (half_edges[one], half_edges[mate[one]])]
-    # Faces of the other edges stay with their neighbour.
+    # At all other edges a face stays with its neighbour.
     chained = np.flatnonzero((edge[1:] == edge[:-1]) & ~balanced[edge[1:]])
     pairs.append((half_edges[chained], half_edges[chained + 1]))
     corners = [neighbouring_corners(surface.faces, *(side.astype(np.int32) for side in both)) for both in pairs]
@@ -47,7 +47,7 @@ def split_bodies(surface: Surface) -> Surface:
 
 
 def _of_one_patch(surface: Surface, half_edges: Index, edge: Ints, way: Ints) -> Ints:
-    """(n,) the other half-edge of the same patch at the same edge, if there are two that run opposite ways; else -1."""
+    """(n,) the opposite half-edge of the same patch at the same edge, if the patch has exactly two there, else -1."""
     patch = surface.orientation.patch[half_edges // 3]
     key, where, count = np.unique(edge * np.int64(surface.n_faces) + patch, return_inverse=True, return_counts=True)
     twice = (count == 2) & (np.bincount(where, way, minlength=len(key)) == 0)
@@ -59,10 +59,10 @@ def _of_one_patch(surface: Surface, half_edges: Index, edge: Ints, way: Ints) ->
 
 
 def _round(surface: Surface, half_edges: Index, edge: Ints, way: Ints) -> tuple[Ints, Ints]:
-    """Pairs of places among half-edges, sorted by edge, between which material lies.
+    """Pairs of positions in a list of half-edges, sorted by edge, that have material between them.
 
-    The normal of a face that runs from the lower end to the higher points to growing angles, so that material ends
-    there and begins at a face that runs the other way. Where faces coincide, one body ends before the next begins.
+    A face whose half-edge runs from the lower end to the higher has its normal towards growing angles: material ends
+    there, and begins at a face with the opposite half-edge. Of coincident faces the ending one comes first.
     """
     if not len(half_edges):
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
@@ -71,8 +71,8 @@ def _round(surface: Surface, half_edges: Index, edge: Ints, way: Ints) -> tuple[
     edge, begins = edge[order], -way[order]
     start = np.flatnonzero(np.r_[True, edge[1:] != edge[:-1]])
     size = np.diff(np.append(start, len(edge)))
-    open_ = np.cumsum(begins)  # every edge adds up to 0
-    # Begun where nothing is open: after the place with the least of open wedges.
+    open_ = np.cumsum(begins)  # the sum over each edge is 0
+    # Start where no wedge is open: after the position with the fewest open wedges.
     least = np.repeat(np.minimum.reduceat(open_, start), size)
     place = np.arange(len(edge)) - np.repeat(start, size)
     first = np.minimum.reduceat(np.where(open_ == least, place, len(edge)), start) + 1
@@ -83,7 +83,7 @@ def _round(surface: Surface, half_edges: Index, edge: Ints, way: Ints) -> tuple[
 
 
 def _angles(surface: Surface, half_edges: Index, edge: Ints) -> Ints:
-    """(n,) the rank of the angle of each half-edge's face round its edge; equal within rounding is equal."""
+    """(n,) the rank of each half-edge's face by angle about its edge; angles within rounding have equal rank."""
     tail, head = ends_of(surface.faces, half_edges)
     a, b = np.minimum(tail, head), np.maximum(tail, head)
     apex = surface.faces.ravel()[previous_corner(half_edges)]

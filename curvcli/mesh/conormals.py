@@ -11,7 +11,7 @@ from .triangles import cross, triangles
 
 
 def conormals(surface: Surface, half_edges: Index) -> VectorColumn:
-    """(3, n) outward unit conormals times length, η|e| = e × ν, of the given half-edges in their own faces."""
+    """(3, n) outward conormals η|e| = e × ν, as long as the edge, of the given half-edges in their own faces."""
     head = next_corner(half_edges)
     corners = [surface.faces.ravel().take(each) for each in (half_edges, head, next_corner(head))]
     t = triangles(surface.xyz, np.stack(corners, axis=1))

@@ -1,4 +1,4 @@
-"""Counting: the topology of the whole surface and of each of its groups."""
+"""Counts and topology (χ, components, genus, loops) of groups of faces."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class GroupCounts:
-    """Counts and yes-or-no answers per group."""
+    """Counts and flags, one entry per group."""
 
     vertices: Counts
     edges: Counts
@@ -41,7 +41,7 @@ class GroupCounts:
 def count_groups(surface: Surface, groups: Groups) -> GroupCounts:
     """Count vertices, edges, faces and defects of every group; χ, V and E count referenced vertices only."""
     vertices = groups.vertices.count_true(surface.referenced)
-    # The whole is that of the surface asked about, whatever surface the groups come from.
+    # The group `whole` is taken from this surface, since the groups may come from another one.
     faces = np.array([surface.n_faces]) if groups.faces.label is None else groups.faces.members()
     boundary = groups.faces.count_of(surface.boundary_half_edges // 3)
     many = excess = conflicts = np.zeros(groups.count, np.int64)
@@ -51,7 +51,7 @@ def count_groups(surface: Surface, groups: Groups) -> GroupCounts:
         excess = groups.vertices.count_of(np.repeat(lower[crowded], surface.edges.valence[crowded] - 2))
     if not surface.coherent or _turned(surface) is not None:
         conflicts = groups.vertices.count_of(surface.edges.a[_winding_conflicts(surface)])
-    # The numbers n_e of all edges add up to three times the faces: only other edges than of two make a difference.
+    # Σ n_e = 3F, so that the number of edges follows from 3F and the edges with n_e ≠ 2.
     edges = (3 * faces + boundary - excess) // 2
     split = groups.vertices.count_true(surface.split_stars)
     if surface.orientable:
@@ -75,12 +75,12 @@ def count_groups(surface: Surface, groups: Groups) -> GroupCounts:
 
 
 def _turned(surface: Surface) -> Mask | None:
-    """(F,) faces that the file winds the other way; None if there are none."""
+    """(F,) mask of the faces wound opposite to the file; None if there is none."""
     return None if surface.cut_from is None else surface.cut_from.turned
 
 
 def _winding_conflicts(surface: Surface) -> Mask:
-    """(E,) edges with n_e = 2 whose two faces run along them the same way as the file winds them."""
+    """(E,) mask of the edges with n_e = 2 whose two half-edges have the same direction in the file."""
     turned = _turned(surface)
     if turned is None:
         return surface.winding_conflicts
@@ -129,7 +129,7 @@ def classify(surface: Surface, groups: Groups) -> Classification:
 @cached
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     """Referenced vertices beyond the first at exactly the same position."""
-    if surface.cut_from is not None:  # which has a vertex of its own for every piece that meets there
+    if surface.cut_from is not None:  # the cut surface has several vertices at one position
         there = surface.cut_from
         return np.flatnonzero(np.isin(there.vertex, duplicate_vertices(there.surface)))
     shared = _shared_keys(lambda: position_keys(surface.xyz_given))
@@ -153,7 +153,7 @@ def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
 
 
 def _corner_keys(surface: Surface) -> NDArray[np.uint64]:
-    """(F,) the same number for faces with the same corners, and hardly ever for others."""
+    """(F,) hash of the set of corners of each face."""
     key = np.random.default_rng(0).integers(0, 2**63, surface.n_vertices, np.uint64)
     keys = np.empty(surface.n_faces, np.uint64)
     for block in slices(surface.n_faces):
@@ -163,7 +163,7 @@ def _corner_keys(surface: Surface) -> NDArray[np.uint64]:
 
 
 def _shared_keys(make: Callable[[], NDArray[np.uint64]]) -> Mask:
-    """Which members carry a key that another one carries too; keys are sorted in place and made again if need be."""
+    """Mask of the members with a repeated key; keys are sorted in place and recomputed only if any repeats."""
     ordered = make()
     ordered.sort()
     same = ordered[1:] == ordered[:-1]

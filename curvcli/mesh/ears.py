@@ -1,4 +1,4 @@
-"""Triangles of one simple polygon in the plane, by cutting off ears."""
+"""Ear clipping: triangulation of one simple polygon in the plane."""
 
 from __future__ import annotations
 
@@ -11,13 +11,12 @@ _ROUNDING = 2.0**-48
 
 
 def clip_ears(p: NDArray[np.float64], most: int) -> tuple[NDArray[np.intp], bool, int]:
-    """Triangles (k - 2, 3) of a polygon p (2, k) that runs counter-clockwise, whether it is simple and all of them are
-    ears, and the effort taken.
+    """Triangulate a counter-clockwise polygon p (2, k): triangles (k - 2, 3), a flag, and the effort.
 
-    p is of size 1. An ear is a convex corner whose triangle holds no other corner; only reflex corners need to be
-    looked at, and of these only those between the left and the right end of the triangle. What lies nearer to the
-    border of an ear than rounding can tell spoils it as long as there are better ones. A polygon that crosses itself,
-    or takes more than the given effort, is finished as a fan.
+    The flag says that p is simple and that all triangles are ears. p has size 1. An ear is a convex corner whose
+    triangle contains no other corner; only reflex corners between the left and the right end of the triangle are
+    tested. An ear with a corner within rounding of its border is cut only if there is no better one. A polygon that
+    crosses itself, or takes more than the given effort, is finished as a fan.
     """
     n = p.shape[1]
     x, y = p
@@ -49,7 +48,7 @@ def clip_ears(p: NDArray[np.float64], most: int) -> tuple[NDArray[np.intp], bool
         inside = np.ones(len(near), np.bool_)
         for i, j in ((0, 1), (1, 2), (2, 0)):
             inside &= (xs[j] - xs[i]) * (qy - ys[i]) - (ys[j] - ys[i]) * (qx - xs[i]) >= -margin
-        for i in range(3):  # the corners themselves, and others at the same place: polygons that touch themselves
+        for i in range(3):  # the corners themselves, and others at the same position: polygons that touch themselves
             inside &= (qx != xs[i]) | (qy != ys[i])
         return not inside.any()
 
@@ -80,7 +79,7 @@ def clip_ears(p: NDArray[np.float64], most: int) -> tuple[NDArray[np.intp], bool
 
 
 def _turns_once(p: NDArray[np.float64]) -> bool:
-    """Whether the sum of the turning angles is 2π, as it is for every simple polygon."""
+    """Test whether the sum of the turning angles is 2π, as for every simple polygon."""
     step = np.roll(p, -1, 1) - p
     after = np.roll(step, -1, 1)
     angles = np.arctan2(step[0] * after[1] - step[1] * after[0], (step * after).sum(0))

@@ -1,4 +1,4 @@
-"""Volumes that groups of faces enclose."""
+"""Enclosed volume per group of faces."""
 
 from __future__ import annotations
 
@@ -20,5 +20,5 @@ def volumes(surface: Surface, groups: Groups) -> Floats:
         return np.full(groups.count, np.nan)
     sign = surface.orientation.face_sign
     sixfold = surface.triple_products if sign is None else surface.triple_products * sign
-    # Divided once, after the sum: a body with integer corners has its integer volume to the last digit.
+    # One division after the sum: the sum is exact for integer corners.
     return np.where(valid, groups.faces.sum(sixfold) / 6, np.nan)

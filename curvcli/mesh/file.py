@@ -1,4 +1,4 @@
-"""What a mesh file says, before anything is interpreted: positions, polygons, labels and properties in file order."""
+"""Content of a mesh file: positions, polygons, labels and properties in file order."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from ..errors import Notice
 
 @dataclass(frozen=True)
 class Labels:
-    """One label per polygon, such as the OBJ group it stands in: `codes` indexes `names`, -1 where there is none."""
+    """One label per polygon, such as its OBJ group: `codes` indexes `names`, -1 for no label."""
 
     codes: NDArray[np.int32]
     names: tuple[str, ...]
 
 
 class Polylines(Sequence[NDArray[np.int32]]):
-    """Vertex indices of all records one after the other, read as a sequence of records.
+    """Vertex indices of polyline records, concatenated; a sequence of records.
 
-    vertex: (n,). start: (m + 1,) where each record begins.
+    vertex: (n,). start: (m + 1,) the first entry of each record.
     """
 
     def __init__(self, vertex: NDArray[np.int32], start: NDArray[np.int64]) -> None:
@@ -53,17 +53,17 @@ class MeshFile:
     """The content of one mesh file.
 
     xyz: (3, V) float64, C-contiguous, one row per coordinate; vertex order is the file's.
-    corners: int32, the corner indices (from 0) of all polygons one after the other.
+    corners: int32, the corner indices (from 0) of all polygons, concatenated.
     sizes: (P,) int32, corners per polygon, or None when every polygon is a triangle (corners is then 3 P long).
     vertex_properties, polygon_properties: further per-element scalars of a PLY file by name, in file order.
-    polygon_labels: `groups`, `objects`, `materials` of an OBJ file, where it has any.
+    polygon_labels: `groups`, `objects`, `materials` of an OBJ file.
     polylines: vertex indices of each OBJ `l` record.
-    welded_to: (V,) the row that holds the values of a merged row, -1 for one that holds its own; None without welding.
-    path, sha256: where the bytes came from (`-` for a stream) and their hash, None for arrays made in memory.
-    weld: how vertices were merged: `none`, `exact` or a tolerance.
-    corner_normals: (3, V) sums of the unit normals that an OBJ file gives at the corners there, if they were asked for.
-    corner_texture: (2, C) texture coordinates of the corners of an OBJ file, NaN where it gives none, if asked for.
-    notices: what was accepted but should be said.
+    welded_to: (V,) the row with the values of a merged row, -1 for a row that keeps its own; None without welding.
+    path, sha256: the source (`-` for a stream) and the hash of its bytes, None for arrays made in memory.
+    weld: the rule that merged vertices: `none`, `exact` or a tolerance.
+    corner_normals: (3, V) sums of an OBJ file's unit normals over the corners at each vertex, on request.
+    corner_texture: (2, C) texture coordinates of the corners of an OBJ file, NaN where it gives none, on request.
+    notices: warnings about accepted content.
     """
 
     format: str

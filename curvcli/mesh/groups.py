@@ -1,4 +1,4 @@
-"""Groups: the surface as one piece, its components or regions of it, and sums over each that lose no digits."""
+"""Groups of faces (the whole, components, regions) and pairwise sums over them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 class Segments:
-    """Members of groups in contiguous runs, for sums by group.
+    """Members of groups, for sums by group.
 
     label: (n,) group of each member, -1 for none; None when every member is of the only group.
     """
@@ -63,7 +63,7 @@ class Segments:
         return self.count_of(np.flatnonzero(mask))
 
     def any(self, mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Whether the mask holds for some member of each group."""
+        """(G,) flag of each group: the mask holds for at least one member."""
         found: NDArray[np.bool_] = self.count_true(mask) > 0
         return found
 
@@ -83,7 +83,7 @@ class Segments:
 class Groups:
     """A partition of a surface's faces, with the vertices that go with each part.
 
-    kind: `whole`, `component` or `region`. face: (F,) group of each face. names: what each is called, if not by number.
+    kind: `whole`, `component` or `region`. face: (F,) group of each face. names: of the groups; None for numbers.
     """
 
     kind: str
@@ -97,11 +97,11 @@ class Groups:
         self.face.setflags(write=False)
 
     def scope(self, group: int) -> str:
-        """How a group is named in checks and messages."""
+        """Name of a group in checks and messages."""
         return self.kind if self.kind == "whole" else f"{self.kind} {self.names[group] if self.names else group}"
 
     def edges(self, surface: Incidence) -> Segments:
-        """The edges of the surface whose parts these are."""
+        """(E,) group of each edge as `Segments`."""
         return _edges(self, surface)
 
     def of(self, surface: Incidence, element: str) -> Segments:
@@ -116,9 +116,9 @@ def _edges(groups: Groups, surface: Incidence) -> Segments:
 
 
 def whole(surface: Incidence, kind: str = "whole", names: tuple[str, ...] = ()) -> Groups:
-    """The whole surface as one group; unreferenced vertices have only nulls to add."""
+    """The whole surface as one group, unreferenced vertices included, whose values are null."""
     faces, vertices = (Segments(None, 1, size) for size in (surface.n_faces, surface.n_vertices))
-    face = np.broadcast_to(np.int32(0), surface.n_faces)  # without memory of its own
+    face = np.broadcast_to(np.int32(0), surface.n_faces)  # a view without memory of its own
     return Groups(kind, 1, face, faces, vertices, names)
 
 

@@ -1,4 +1,4 @@
-"""Incidence: what the faces alone say of edges, stars and the boundary, worked out once and on demand."""
+"""Incidence: edges, stars and boundary from the face list alone, computed on demand and cached."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .topology import Edges, Index, Mask, ends_of, find_edges, label_graph, renu
 
 
 class Incidence:
-    """Which edges, faces and vertices meet.
+    """Incidence of edges, faces and vertices.
 
     faces: (F, 3) corners. n_vertices: rows of the file, unreferenced ones included.
     """
@@ -23,12 +23,12 @@ class Incidence:
 
     @property
     def n_faces(self) -> int:
-        """Triangles that are computed with."""
+        """Number of triangles, without those with a repeated corner."""
         return len(self.faces)
 
     @cached_property
     def stars(self) -> Stars:
-        """What the faces at each vertex say."""
+        """Stars of all vertices: face counts, fans and boundary, see `find_stars`."""
         return find_stars(self.faces, self.n_vertices)
 
     @cached_property
@@ -38,13 +38,13 @@ class Incidence:
 
     @cached_property
     def coherent(self) -> bool:
-        """Whether no two faces run along an edge the same way in the file, so that no edge has more than two."""
+        """True if no edge has two half-edges of the same direction in the file, and so none has more than two faces."""
         return self.stars.coherent
 
     @cached_property
     @frozen
     def referenced(self) -> Mask:
-        """(V,) vertices that some face uses."""
+        """(V,) mask of the vertices with at least one face."""
         mask: Mask = self.corner_count > 0
         return mask
 
@@ -55,8 +55,8 @@ class Incidence:
 
     @cached_property
     def n_edges(self) -> int:
-        """Edges, without looking for them where none has more than two faces."""
-        # The numbers n_e of all edges add up to three times the faces: only other edges than of two make a difference.
+        """Number of edges, computed without the list of edges if no edge has more than two faces."""
+        # Σ n_e = 3F, so that the number of edges follows from 3F and the edges with n_e ≠ 2.
         return (3 * self.n_faces + len(self.boundary_half_edges) - int(self._crowd.sum())) // 2
 
     @cached_property
@@ -69,7 +69,7 @@ class Incidence:
     @frozen
     def degree(self) -> Index:
         """(V,) number of edges at each vertex."""
-        # Each face has two edges at a corner, so that the same holds at every vertex.
+        # Each face has two edges at a corner: Σ n_e over the edges at a vertex is twice its number of faces.
         twice = 2 * self.corner_count + self.boundary_degree
         if len(self._crowd):
             for end in (self.edges.a, self.edges.b):
@@ -79,7 +79,7 @@ class Incidence:
     @cached_property
     @frozen
     def boundary_edges(self) -> Mask:
-        """(E,) edges with n_e = 1."""
+        """(E,) mask of the edges with n_e = 1."""
         return self.edges.valence == 1 if len(self.boundary_half_edges) else np.zeros(self.n_edges, bool)
 
     @cached_property
@@ -94,7 +94,7 @@ class Incidence:
     @cached_property
     @frozen
     def boundary(self) -> Mask:
-        """(V,) boundary vertices: some edge there has n_e = 1."""
+        """(V,) mask of the boundary vertices: an edge at the vertex has n_e = 1."""
         mask: Mask = self.boundary_degree > 0
         return mask
 
@@ -119,13 +119,13 @@ class Incidence:
     @cached_property
     @frozen
     def nonmanifold_edges(self) -> Mask:
-        """(E,) edges with n_e > 2."""
+        """(E,) mask of the edges with n_e > 2."""
         return np.zeros(self.n_edges, bool) if self.coherent else self.edges.valence > 2
 
     @cached_property
     @frozen
     def nonmanifold_ends(self) -> Mask:
-        """(V,) ends of edges with n_e > 2."""
+        """(V,) mask of the ends of edges with n_e > 2."""
         mask = np.zeros(self.n_vertices, bool)
         if not self.coherent:
             for end in (self.edges.a, self.edges.b):
@@ -135,30 +135,30 @@ class Incidence:
     @cached_property
     @frozen
     def split_stars(self) -> Mask:
-        """(V,) vertices whose star is not one fan and which are not the end of an edge with n_e > 2."""
+        """(V,) mask of the vertices whose star has several fans, without the ends of edges with n_e > 2."""
         return self.stars.split & ~self.nonmanifold_ends
 
     @cached_property
     @frozen
     def nonmanifold(self) -> Mask:
-        """(V,) vertices of status `nonmanifold`."""
+        """(V,) mask of the vertices of status `nonmanifold`."""
         return self.split_stars | self.nonmanifold_ends
 
     @cached_property
     @frozen
     def interior(self) -> Mask:
-        """(V,) vertices with one closed fan: neither on the boundary nor non-manifold nor unreferenced."""
+        """(V,) mask of the vertices with one closed fan: neither boundary nor non-manifold nor unreferenced."""
         return self.referenced & ~self.boundary & ~self.nonmanifold
 
     @cached_property
     def is_manifold(self) -> bool:
-        """Whether every n_e ≤ 2 and every star is one fan."""
+        """True if every edge has n_e ≤ 2 and every star is one fan."""
         return not self.nonmanifold.any()
 
     @cached_property
     @frozen
     def winding_conflicts(self) -> Mask:
-        """(E,) edges with n_e = 2 whose two faces run along them the same way in the file."""
+        """(E,) mask of the edges with n_e = 2 whose two half-edges have the same direction in the file."""
         conflict = np.zeros(self.n_edges, bool)
         if not self.coherent:
             conflict[self.edges.inner] = same_direction(self.faces, *self.edges.pairs)
@@ -166,5 +166,5 @@ class Incidence:
 
     @cached_property
     def consistent_winding(self) -> bool:
-        """Whether the file's winding is coherent across every edge with n_e = 2."""
+        """True if the file's winding is coherent across every edge with n_e = 2."""
         return not self.winding_conflicts.any()

@@ -1,6 +1,6 @@
-"""Neighbourhoods of vertices: which vertices lie within some rings of edges or within a radius, as sparse rows.
+"""Neighbourhoods of vertices, within some rings of edges or within a radius, as rows of sparse matrices.
 
-Rows are made in blocks, so that memory stays bounded however large the mesh and the neighbourhood are.
+Rows are computed in blocks, so that memory is bounded for any size of mesh and neighbourhood.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from .surface import Surface
 from .topology import Index, Mask
 from .triangles import Floats, dot, span
 
-# Entries that a block of rows may be expected to have.
+# Expected entries of a block of rows.
 _ENTRIES_PER_BLOCK = 1 << 21
 _ROWS_PER_BLOCK = 1 << 16
 # Entries, counted before repetitions are merged, beyond which a block is halved.
 _LARGEST_BLOCK = 1 << 25
-# A row is given up where one more step meets this many times the vertices that are usual, and at least so many.
+# A row is left empty where its next step meets this many times the usual number of vertices, and at least so many.
 _USUAL, _ALWAYS = 64, 1 << 10
 
 Pattern = csr_array
 
-# Vertices around each, as a usual mesh has them, beyond which time would be out of proportion to the mesh.
+# Largest neighbourhood, in vertices of a usual mesh; beyond it the time is out of proportion to the mesh.
 _MOST_EXPECTED = 10_000
 
-# Neighbourhoods that several passes look at are kept while they have no more entries than this (5 bytes each).
+# Neighbourhoods are cached for several passes up to this many entries (5 bytes each).
 _MOST_KEPT = 1 << 26
 _KEPT: WeakKeyDictionary[Surface, tuple[Scale, list[tuple[slice, Pattern]]]] = WeakKeyDictionary()
 
@@ -57,20 +57,20 @@ def mean_edge_length(surface: Surface) -> float:
 
 
 def radius_of(surface: Surface, scale: Scale) -> float:
-    """The radius of a scale that is none of rings, in the unit of computation."""
+    """The radius of a scale in edge lengths or in length, in the unit of computation."""
     if scale.kind == "edges":
         return scale.size * mean_edge_length(surface)
-    with np.errstate(over="ignore"):  # a radius that no double holds reaches everything
+    with np.errstate(over="ignore"):  # an infinite radius reaches everything
         return float(np.ldexp(scale.size, -surface.unit_exponent))
 
 
 def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Pattern]]:
-    """Blocks of vertices, and for each block a boolean CSR (rows of the block, V): the vertices around each vertex.
+    """Yield blocks of vertices with a boolean CSR matrix (rows of the block, V): the neighbours of each vertex.
 
-    Every vertex is in its own neighbourhood; one that no face uses has an empty row. Rings: all vertices reached over
-    so many edges. Radius: all vertices at most so far away in space that are connected with it by edges whose ends all
-    are: a sheet that passes near is not mixed in. Columns within a row are in no order. Rows that would have far
-    more vertices than is usual at the scale, next to vertices of huge degree, are left empty.
+    Every vertex is in its own neighbourhood; the row of an unreferenced vertex is empty. Rings: all vertices within so
+    many edges. Radius: the vertices within that distance in space that a path of edges within it joins to the centre;
+    a sheet that passes nearby is left out. Columns within a row are unordered. Rows with far more vertices than usual
+    at the scale, next to vertices of huge degree, are left empty.
     """
     kept = _KEPT.get(surface)
     if kept is not None and kept[0] == scale:
@@ -103,12 +103,12 @@ def _too_far(surface: Surface, count: str) -> InputError:
 
 
 def clear_cache(surface: Surface) -> None:
-    """Let go of the neighbourhoods that are kept of a surface."""
+    """Drop the cached neighbourhoods of a surface."""
     _KEPT.pop(surface, None)
 
 
 def _grown(grow: _Rings | _Balls, block: slice) -> Iterator[tuple[slice, Pattern]]:
-    """The rows of a block, or of its halves where they are too many entries."""
+    """The rows of a block, or of its halves where the block has too many entries."""
     rows = grow.rows(block)
     if rows is not None:
         yield block, rows
@@ -129,7 +129,7 @@ class _Rings:
         self.degree = np.diff(self.near.indptr).astype(np.float64)
 
     def rows(self, block: slice) -> Pattern | None:
-        """The rows of a block; None if they are too many for one."""
+        """The rows of a block; None if it has too many entries."""
         rows = self.near[block]
         for _ in range(self.count - 1):
             small = _without_huge(rows, self.degree, self.most)
@@ -167,7 +167,7 @@ class _Balls:
                 frontier, previous, reached = (_emptied(rows, huge) for rows in (frontier, previous, reached))
             if work[~huge].sum() + reached.nnz > _LARGEST_BLOCK and block.stop - block.start > 1:
                 return None
-            # What is one edge further was met in this step or the last two.
+            # The ends of the next edges were met in this step or the last two.
             found = _within(self.surface, frontier @ self.near, block, self.radius)
             fresh = (found > frontier) > previous
             fresh.eliminate_zeros()
@@ -177,7 +177,7 @@ class _Balls:
 
 
 def _without_huge(rows: Pattern, degree: Floats, most: int) -> Pattern | None:
-    """The rows whose next step is small enough, the others emptied; None if together they are too many."""
+    """Empty the rows whose next step is too large; None if all together have too many entries."""
     work = rows @ degree
     huge = work > most
     if work[~huge].sum() > _LARGEST_BLOCK and rows.shape[0] > 1:
@@ -186,7 +186,7 @@ def _without_huge(rows: Pattern, degree: Floats, most: int) -> Pattern | None:
 
 
 def _emptied(rows: Pattern, which: Mask) -> Pattern:
-    """The pattern with some rows empty."""
+    """Copy the pattern with some rows empty."""
     count = np.diff(rows.indptr)
     kept = np.repeat(~which, count)
     total = np.zeros(len(count) + 1, np.int32)
@@ -195,7 +195,7 @@ def _emptied(rows: Pattern, which: Mask) -> Pattern:
 
 
 def _within(surface: Surface, rows: Pattern, block: slice, radius: float) -> Pattern:
-    """Those entries that are no further from the vertex of their row than the radius."""
+    """Keep the entries within the radius about the vertex of their row."""
     count = np.diff(rows.indptr)
     at = np.repeat(np.arange(block.start, block.stop, dtype=np.int32), count)
     square = np.zeros(len(at))
@@ -227,7 +227,7 @@ def as_weights(rows: Pattern) -> csr_array:
 
 
 def sizes(surface: Surface, scale: Scale) -> Index:
-    """(V,) how many vertices each neighbourhood has, the vertex itself included."""
+    """(V,) number of vertices in each neighbourhood, the vertex itself included."""
     count = np.zeros(surface.n_vertices, np.int32)
     for block, rows in neighbourhoods(surface, scale):
         count[block] = np.diff(rows.indptr)

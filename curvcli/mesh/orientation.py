@@ -1,4 +1,4 @@
-"""Coherent orientation: patches, the sign of every face, and what to do where there is none."""
+"""Coherent orientation: patches, the sign of every face, and local orientations of stars."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Sign = NDArray[np.int8]
 
 @dataclass(frozen=True)
 class Orientation:
-    """How the faces of a surface are oriented for the computation.
+    """The orientation of the faces of a surface for the computation.
 
     patch: (F,) patch of each face, numbered by lowest face; a patch is joined through edges with n_e = 2.
     orientable: (patches,). face_sign: (F,) +1 where the file's winding is kept, -1 where the face is turned; None when
@@ -39,7 +39,7 @@ class Orientation:
 
 
 def same_direction(faces: Index, one: Index, other: Index) -> Mask:
-    """Whether two half-edges of one edge run the same way, that is, whether their faces disagree."""
+    """(n,) flags: two half-edges of one edge have the same direction, so that their faces disagree."""
     tail, same = faces.ravel(), np.empty(len(one), bool)
     for block in slices(len(one), LONG):
         np.equal(tail.take(one[block]), tail.take(other[block]), out=same[block])
@@ -67,10 +67,10 @@ def orient(faces: Index, edges: Edges) -> Orientation:
 
 
 def orient_stars(faces: Index, edges: Edges) -> Sign:
-    """(F, 3) a sign for each corner that orients its vertex's star by itself, from the star's lowest corner.
+    """(F, 3) a sign for each corner that orients the star of its vertex alone, starting from the star's lowest corner.
 
-    Möbius strips have no global normal, but every star that is one fan has a local one; what is even in the normal is
-    defined by it.
+    A Möbius strip has no global normal, but every star with one fan has a local one; it defines all quantities that are
+    even in the normal.
     """
     one, other = edges.pairs
     disagree = np.tile(same_direction(faces, one, other), 2)
@@ -94,9 +94,9 @@ def edge_directions(faces: Index, half_edges: Index, orientation: Orientation) -
 
 
 class Uncancelled(NamedTuple):
-    """Edges along which the oriented faces do not run as often from a to b as from b to a.
+    """Edges with unequally many half-edges of oriented faces in the two directions.
 
-    a, b: (n,) their ends. surplus: (n,) faces that run from a to b less those from b to a.
+    a, b: (n,) their ends. surplus: (n,) half-edges from a to b less those from b to a.
     """
 
     a: Index
@@ -105,12 +105,12 @@ class Uncancelled(NamedTuple):
 
 
 def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent: bool) -> Uncancelled:
-    """The edges along which the oriented faces do not cancel.
+    """The edges whose oriented half-edges do not cancel.
 
-    consistent: whether no edge with n_e = 2 has two faces that run along it the same way.
+    consistent: no edge with n_e = 2 has two half-edges of the same direction.
     """
     if consistent and orientation.face_sign is None:
-        # Two faces that agree cancel: something is left only at edges with one face or with more than two.
+        # Two coherent faces cancel: a surplus remains only at edges with n_e ≠ 2.
         edge = edges.unpaired
         half_edges = edges.half_edges(edge)
     else:
@@ -124,14 +124,14 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
 
 
 def uncancelled_rim(faces: Index, rim: Index, orientation: Orientation) -> Uncancelled:
-    """The same where any two faces of an edge cancel. rim: half-edges of the edges with one face."""
+    """`uncancelled` for coherent faces. rim: half-edges of the edges with n_e = 1."""
     tail, head = ends_of(faces, rim)
     surplus = edge_directions(faces, rim, orientation).astype(np.int32)
     return Uncancelled(np.minimum(tail, head), np.maximum(tail, head), surplus)
 
 
 def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask:
-    """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
+    """(patches,) flag: each edge of the patch has exactly two of its own faces, with opposite half-edges."""
     closed = np.ones(len(orientation.orientable), bool)
     odd = edges.unpaired
     if len(odd):

@@ -1,4 +1,4 @@
-"""Polygons into triangles: a fan from the first corner when convex, ear clipping when not."""
+"""Triangulation of polygons: a fan from the first corner if convex, else ear clipping."""
 
 from __future__ import annotations
 
@@ -17,11 +17,10 @@ _RESERVE = 500_000_000
 
 
 def triangulate(mesh: MeshFile) -> tuple[NDArray[np.int32], NDArray[np.int32] | None, tuple[Notice, ...]]:
-    """The triangles (F, 3) of a mesh, the polygon of each triangle (F,) or None when all polygons are triangles, and
-    what was triangulated.
+    """Triangulate a mesh: triangles (F, 3), the polygon of each (F,) or None if all are triangles, and notices.
 
-    A polygon of k corners becomes k - 2 triangles that follow one another and keep its winding and its border. It is
-    judged in the plane of its area vector (Newell), whatever its size and place.
+    A polygon of k corners becomes k - 2 consecutive triangles with its winding and its border. Convexity is tested in
+    the plane of its area vector (Newell), independently of its size and position.
     """
     if mesh.sizes is None:
         return mesh.corners.reshape(-1, 3), None, ()
@@ -93,9 +92,9 @@ def _area_vectors(d: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _is_convex(p: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether no corner, and no triangle of the fan, turns against the area vector of its polygon.
+    """(n,) flags: no corner, and no triangle of the fan, turns against the area vector of its polygon.
 
-    p: (3, n, k). Corners that are not finite count as convex: whoever uses them refuses them.
+    p: (3, n, k). Corners that are not finite count as convex; the surface refuses them later.
     """
     d = _from_first(p)
     with np.errstate(invalid="ignore", over="ignore"):
@@ -123,7 +122,7 @@ def _in_plane(p: NDArray[np.float64]) -> NDArray[np.float64]:
 def from_file(file: MeshFile, orient: Orient = "file") -> Surface:
     """The surface of a mesh file, its polygons triangulated.
 
-    Errors: InputError for a file without faces, or whose faces use coordinates that are not finite.
+    Errors: InputError for a file without faces, or for coordinates of faces that are not finite.
     """
     try:
         faces, polygon, notices = triangulate(file)

@@ -1,4 +1,4 @@
-"""How exactly the coordinates of a mesh are known: to the last digit written, or the last bit stored."""
+"""Precision of coordinates: the last decimal written, or the last bit stored."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from numpy.typing import NDArray
 
 from .surface import Surface
 
-# A value that is rounded to a step is off by step/√12 in the root of the mean square.
+# Rounding to a step has a root mean square error of step/√12.
 _UNIFORM = 1 / math.sqrt(12)
-# Decimals are looked for in the largest coordinates, down to this part of the largest, and up to so many digits.
+# Decimals are counted in the largest coordinates, down to this part of the largest, and up to so many digits.
 _DECADE, _DIGITS = 0.1, 14
 _SAMPLE = 4096
-# Beyond, the powers of ten that are tried leave the range of doubles.
+# Beyond, the powers of ten leave the range of doubles.
 _RANGE = 1e-250, 1e250
 
 
 def precision(surface: Surface) -> float:
-    """How far rounding has moved the coordinates of a surface, told from their values: a standard deviation.
+    """Standard deviation of the rounding of a surface's coordinates, derived from their values.
 
-    Those that are all float32 numbers are taken as stored so; those that are all short decimals as written with so many
-    digits after the point; the finer of the two where both hold, as for whole numbers; else they are doubles.
+    Coordinates that are all float32 numbers have the step of float32; coordinates that are all short decimals have a
+    step of their last digit; the finer step where both hold, as for whole numbers; otherwise the step of doubles.
     """
     used = surface.used_coordinates()
     largest = float(np.abs(used).max())
@@ -41,7 +41,7 @@ def precision(surface: Surface) -> float:
 
 
 def is_single(values: NDArray[np.float64]) -> bool:
-    """Whether every value is a float32 number, as in binary STL and most PLY files."""
+    """True if every value is a float32 number, as in binary STL and most PLY files."""
     with np.errstate(over="ignore", under="ignore"):
         return all(bool((row.astype(np.float32) == row).all()) for row in values)
 
@@ -49,14 +49,14 @@ def is_single(values: NDArray[np.float64]) -> bool:
 def last_place(surface: Surface, kind: type[np.floating[Any]] = np.float64) -> float:
     """The unit in the last place of the largest coordinate that a face uses, in the unit of computation."""
     used = surface.used_coordinates()
-    # Beyond the last one there is no number.
+    # np.spacing of the largest double is infinite.
     largest = min(max(float(used.max()), -float(used.min())), float(np.finfo(kind).max) / 2)
     place = np.float64(np.spacing(kind(largest)))
     return float(np.ldexp(place, -surface.unit_exponent))
 
 
 def decimals(values: NDArray[np.float64], largest: float) -> int | None:
-    """How many digits after the point the large values have; None for as many as doubles hold."""
+    """Number of digits after the point in the large values; None for as many as doubles hold."""
     if not _RANGE[0] < largest < _RANGE[1]:
         return None
     large = np.abs(values[np.abs(values) >= _DECADE * largest])
@@ -69,6 +69,6 @@ def decimals(values: NDArray[np.float64], largest: float) -> int | None:
 
 
 def _multiples(values: NDArray[np.float64], places: int) -> bool:
-    """Whether values are, to the rounding of doubles, multiples of that power of ten."""
+    """Test whether all values are multiples of that power of ten, to the rounding of doubles."""
     scaled = values * 10.0**places
     return bool((np.abs(scaled - np.rint(scaled)) <= 2 * np.finfo(np.float64).eps * scaled).all())

@@ -1,4 +1,4 @@
-"""What estimators are told beside the surface: at which scale they look, whose normals and which noise they assume."""
+"""Settings of estimators: scale (rings or radius), normals and noise."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ..support.words import pluralize
 
 Kind = Literal["rings", "edges", "length"]
 
-# Beyond this many rings neighbourhoods are counted in edges more than in detail; a radius says the same better.
+# Largest number of rings; beyond it a radius describes the same neighbourhood better.
 MOST_RINGS = 100
 
 
 @dataclass(frozen=True)
 class Scale:
-    """How far the neighbourhood of a vertex reaches.
+    """The size of the neighbourhood of a vertex.
 
     kind: `rings` of edges, a radius in mean `edges` of the mesh, or a radius as a `length` in the file's unit.
     Errors: UsageError for a size that is not positive, or rings that are no whole number.
@@ -36,12 +36,12 @@ class Scale:
 
     @property
     def name(self) -> str:
-        """What columns at this scale are called after it: `3rings`, `2.5e` or `r0.1`; `parse` reads it back."""
+        """Suffix of columns at this scale: `3rings`, `2.5e` or `r0.1`; `parse` reads it back."""
         number = repr(int(self.size)) if self.size == int(self.size) and self.size < 1e15 else repr(self.size)
         return {"rings": f"{number}rings", "edges": f"{number}e", "length": f"r{number}"}[self.kind]
 
     def __str__(self) -> str:
-        """For people."""
+        """The scale in words, for messages."""
         number = f"{self.size:g}"
         rings = pluralize(self.size, f"{number} [ring|rings]")
         edges = pluralize(self.size, f"radius of {number} mean edge [length|lengths]")
@@ -49,12 +49,12 @@ class Scale:
 
 
 def rings(count: int) -> Scale:
-    """All that is reached over so many edges."""
+    """A scale of so many rings of edges."""
     return Scale("rings", count)
 
 
 def parse_radius(text: str) -> Scale:
-    """A radius as written by the user: `0.1` in the file's unit, `3e` in mean edge lengths.
+    """Parse a radius: `0.1` in the file's unit, `3e` in mean edge lengths.
 
     Errors: UsageError.
     """
@@ -72,7 +72,7 @@ def parse_radius(text: str) -> Scale:
 def parse_scales(
     ring_counts: str | int | Iterable[str | int] | None, radii: str | float | Iterable[str | float] | None
 ) -> tuple[Scale, ...]:
-    """The scales of lists, or of texts with commas, of ring counts and of radii, in that order and without repeats.
+    """Parse lists, or texts with commas, of ring counts and radii into scales, in that order and without repeats.
 
     Errors: UsageError.
     """
@@ -82,13 +82,13 @@ def parse_scales(
 
 
 def describe_scales(names: str) -> str:
-    """A comma list of the names of scales, for people."""
+    """Describe a comma list of names of scales, for messages."""
     given = options_of(names)
     return ", ".join(str(scale) for scale in parse_scales(given["rings"], given["radius"]))
 
 
 def options_of(names: str) -> dict[str, str | None]:
-    """The options `rings` and `radius` that give the scales of a comma list of their names."""
+    """The options `rings` and `radius` for a comma list of names of scales."""
     each = [name.strip() for name in names.split(",")]
     counts = [name.removesuffix("rings") for name in each if name.endswith("rings")]
     radii = [name.removeprefix("r") for name in each if not name.endswith("rings")]
@@ -108,13 +108,13 @@ def _count(text: str) -> int:
         raise UsageError(f"rings {text.strip()!r}: expected a whole number from 1 to {MOST_RINGS}") from None
 
 
-# Where none is asked for.
+# The default scale.
 DEFAULT_SCALE = rings(2)
 
 
 @dataclass(frozen=True)
 class Settings:
-    """What passes may ask for by a parameter that is no quantity: `scale`, `normals`, `noise`.
+    """Values of the parameters of passes that are no quantities: `scale`, `normals`, `noise`.
 
     scales: each gives one column per estimator. normals: of the `mesh`, or those of the `file`.
     noise: standard deviation of each coordinate in the file's unit; None is the precision of the file.
@@ -137,5 +137,5 @@ class Settings:
 
 DEFAULTS = Settings()
 
-# Parameters of passes that `Settings` answers.
+# Parameters of passes that `Settings` provides.
 PARAMETERS = ("scale", "normals", "noise")

@@ -16,21 +16,21 @@ from .topology import Index, faces_at, find_edges
 from .triangles import dot
 from .welding import weld_exact, weld_within
 
-# Wider gaps, against the diagonal of the bounding box, are no seams.
+# Largest gap of a seam, relative to the diagonal of the bounding box.
 _WIDEST = 1e-3
-# Beyond this gap vertices have to be as many times nearer to one another than their edges are long.
+# Beyond this gap vertices must be nearer to one another than their edges are long, by this factor.
 _FINE, _APART = 1e-6, 10
-# Smaller tolerances make no difference: coordinates are rounded, and moved and scaled before they are compared.
+# Smaller tolerances have no effect: coordinates are rounded, moved and scaled before they are compared.
 _LEAST, _ROUNDING = 1e-12, 4e-16
-# A tolerance ends where the next gap is as many times as wide; so many tolerances are tried.
+# A tolerance ends before a gap that is wider by this factor; at most so many tolerances are tried.
 _JUMP, _TRIED = 4, 6
 
 
 class Effect(NamedTuple):
-    """What welding does: boundary edges closed, edges with more than two faces more than before, faces dropped and kept
-    of those with a merged corner.
+    """Effect of welding: boundary edges closed, additional edges with n_e > 2 (crowded), and faces dropped and kept of
+    those with a merged corner.
 
-    touched: whether a merged vertex lies on the boundary.
+    touched: True if a merged vertex lies on the boundary.
     """
 
     closed: int
@@ -49,12 +49,12 @@ class Seam(NamedTuple):
 
 
 def effect(surface: Surface, lowest: NDArray[np.integer]) -> Effect:
-    """What merging each vertex with its lowest one does, counted on the faces that it touches."""
+    """Compute the effect of merging each vertex into `lowest`, from the faces at merged vertices."""
     old = surface.edges
     merged = np.zeros(surface.n_vertices, bool)
     merged[lowest[surface.referenced & (lowest != np.arange(len(lowest)))]] = True
     touched = merged[lowest]
-    # Edges without a merged end stay as they are, and all faces of the others are among the chosen.
+    # Edges without a merged end are unchanged; the chosen faces contain all faces of the other edges.
     ours = touched[old.a] | touched[old.b]
     open_now, crowded_now = (int(np.count_nonzero(which & ours)) for which in (old.valence == 1, old.valence > 2))
     faces = lowest[surface.faces[faces_at(surface.faces, touched)]].astype(np.int32)
@@ -70,13 +70,13 @@ def effect(surface: Surface, lowest: NDArray[np.integer]) -> Effect:
 
 @cached
 def exact_effect(surface: Surface) -> Effect:
-    """What welding at exactly equal positions does."""
+    """Compute the effect of welding at exactly equal positions."""
     first, number = weld_exact(surface.xyz_given)
     return effect(surface, first[number])
 
 
 def describe_exact_welding(surface: Surface) -> str:
-    """What `--weld exact` would do to the boundary."""
+    """Describe the effect of `--weld exact` on the boundary."""
     way_out = "--weld exact merges them"
     if not len(surface.boundary_half_edges):
         return way_out
@@ -84,26 +84,26 @@ def describe_exact_welding(surface: Surface) -> str:
     if not found.touched:
         return f"{way_out}; none lies on the boundary"
     if found.closed <= 0:
-        return _told(way_out, found)
+        return _with_crowded(way_out, found)
     all_of = "all " if found.closed == len(surface.boundary_half_edges) > 1 else ""
-    return _told(f"--weld exact would close {all_of}{counted(found.closed, 'boundary edge')}", found)
+    return _with_crowded(f"--weld exact would close {all_of}{counted(found.closed, 'boundary edge')}", found)
 
 
 def describe_closing(surface: Surface, seam: Seam) -> str:
-    """What the tolerance of a seam does to the boundary."""
+    """Describe the effect of a seam's tolerance on the boundary."""
     boundary, closed = len(surface.boundary_half_edges), seam.effect.closed
     part = f"{closed:,} of " if closed < boundary else "all " if boundary > 1 else ""
-    return _told(f"--weld {seam.tolerance} closes {part}{counted(boundary, 'boundary edge')}", seam.effect)
+    return _with_crowded(f"--weld {seam.tolerance} closes {part}{counted(boundary, 'boundary edge')}", seam.effect)
 
 
-def _told(words: str, found: Effect) -> str:
-    if found.crowded <= 0:
-        return words
-    return f"{words}, and more than two faces would meet at {counted(found.crowded, 'edge')}"
+def _with_crowded(message: str, welded: Effect) -> str:
+    if welded.crowded <= 0:
+        return message
+    return f"{message}, and more than two faces would meet at {counted(welded.crowded, 'edge')}"
 
 
 def describe_best_welding(surface: Surface) -> str:
-    """How welding closes boundary edges, with the tolerance or exactly, whichever closes more; empty where neither."""
+    """Describe the welding that closes most boundary edges, by tolerance or exactly; empty if none closes any."""
     seam = near_seam(surface)
     if seam is not None:
         return describe_closing(surface, seam)
@@ -114,7 +114,7 @@ def describe_best_welding(surface: Surface) -> str:
 
 @cached
 def near_seam(surface: Surface) -> Seam | None:
-    """The boundary vertices that nearly coincide, if welding them closes more edges than welding exactly does.
+    """Find boundary vertices that nearly coincide; None unless welding them closes more edges than exact welding.
 
     Only boundary vertices are searched. The tolerance is the smallest of those before a jump in the gaps that closes
     the most; it is tried on the whole mesh, so that the counts are those of `--weld`.
@@ -135,23 +135,23 @@ def near_seam(surface: Surface) -> Seam | None:
 
 
 def _tried(surface: Surface, tolerance: str, among: NDArray[np.bool_] | None) -> Seam | None:
-    """What a tolerance does to all vertices, or to some; None where it merges too much."""
+    """Try a tolerance on all vertices, or on some; None if it merges too much."""
     try:
         lowest = weld_within(surface.xyz_given, float(tolerance), among)
     except InputError:
         return None
     found = effect(surface, lowest)
-    # A seam leaves its faces: what loses them is a thin strip, or slivers if it is a few.
+    # Welding a seam drops no faces; it drops all faces of a thin strip, and a few slivers.
     if found.dropped > (0 if float(tolerance) > _FINE else found.kept / 4):
         return None
     number = np.bincount(lowest[surface.boundary], minlength=surface.n_vertices)
     vertices = np.flatnonzero(surface.boundary & (number[lowest] > 1))
-    # A seam closes about an edge for each of its vertices; vertices that meet by chance close few.
+    # Welding a seam closes about one edge per vertex; vertices that meet by chance close few.
     return Seam(vertices, tolerance, found) if 4 * found.closed >= len(vertices) else None
 
 
 def _tolerances(surface: Surface) -> list[str]:
-    """Tolerances worth a trial, ascending: the gaps that come before the widest jumps, rounded up to two digits."""
+    """Candidate tolerances, ascending: the gaps before the widest jumps, rounded up to two digits."""
     gaps = np.sort(_gaps(surface))
     if not len(gaps):
         return []
@@ -163,14 +163,14 @@ def _tolerances(surface: Surface) -> list[str]:
 
 
 def _rounded_up(value: float) -> str:
-    """The number with two digits that is no less, as a person would write it."""
+    """Round up to two significant digits, as text."""
     exponent = math.floor(math.log10(value)) - 1
     digits = math.ceil(value / 10.0**exponent * (1 - 1e-15))
     return f"{float(f'{digits}e{exponent}'):g}".replace("e-0", "e-")
 
 
 def _gaps(surface: Surface) -> NDArray[np.float64]:
-    """Distances to the nearest boundary vertex elsewhere, against the diagonal, where they may be those of a seam."""
+    """Distances to the nearest other boundary vertex, relative to the diagonal, that may be those of a seam."""
     from scipy.spatial import cKDTree
 
     used = surface.xyz_given[:, np.isfinite(surface.xyz_given).all(axis=0)]
@@ -200,7 +200,7 @@ def _gaps(surface: Surface) -> NDArray[np.float64]:
 def _shortest_edges(
     surface: Surface, vertices: Index | NDArray[np.intp], low: NDArray[np.float64], scale: float
 ) -> NDArray[np.float64]:
-    """(n,) the shortest edge of a face at each vertex, against the diagonal."""
+    """(n,) the shortest edge of a face at each vertex, relative to the diagonal."""
     chosen = np.zeros(surface.n_vertices, bool)
     chosen[vertices] = True
     faces = surface.faces[faces_at(surface.faces, chosen)]

@@ -1,4 +1,4 @@
-"""Sheets: a surface cut apart where it is no manifold, so that estimates look at one sheet at a time."""
+"""Sheets: a surface cut along its non-manifold edges and vertices, so that estimates use one sheet at a time."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .topology import Edges, Index, faces_at, find_edges, label_graph, neighbour
 
 
 def sheets(surface: Surface) -> Surface:
-    """The manifold that comes of giving every fan of every patch a vertex of its own, oriented as the surface is.
+    """Cut a surface into a manifold by giving every fan of every patch its own vertex; the orientation is kept.
 
-    Faces of a patch are neighbours across an edge that has two faces of this patch, however many others meet there. So
-    what is said of a sheet follows from the faces of its patch alone. The first fan of a vertex keeps its number, the
-    others are appended: all vertices with one fan have their numbers and stars as before.
+    Two faces of a patch are neighbours across an edge where the patch has exactly these two, in spite of other faces.
+    The values on a sheet so depend on the faces of its patch alone. The first fan of a vertex keeps its number, the
+    others are appended: vertices with one fan keep their numbers and stars.
     """
     vertex, faces = _one_vertex_per_fan(surface)
     sign = surface.orientation.face_sign
@@ -30,14 +30,14 @@ def sheets(surface: Surface) -> Surface:
     if file is not None and given is not None:
         normals = given.take(vertex, axis=1)
         if file.corner_normals is not None:
-            # Normals that were given at corners are sums over all sheets there, and belong to none of them.
+            # Normals given at corners are sums over all sheets at the vertex, and belong to none of them.
             normals[:, surface.nonmanifold[vertex]] = np.nan
         file = replace(file, corner_normals=normals)
     return Surface(surface.points[vertex], faces, file=file)
 
 
 def on_single_fans(surface: Surface, found: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Columns of the sheets as columns of the surface: undefined, and flags not set, at vertices of several fans."""
+    """Columns of the sheets as columns of the surface: null, and flags False, at vertices of several fans."""
     columns = {}
     for name, column in found.items():
         column = column[..., : surface.n_vertices].copy()
@@ -48,7 +48,7 @@ def on_single_fans(surface: Surface, found: Mapping[str, NDArray[Any]]) -> dict[
 
 
 def _one_vertex_per_fan(surface: Surface) -> tuple[NDArray[np.intp], Index]:
-    """The old vertex of every new one, and the faces by the new ones."""
+    """The old vertex of every new one, and the faces with new indices."""
     chosen = faces_at(surface.faces, surface.nonmanifold)
     near = surface.faces[chosen]
     edges = find_edges(near, surface.n_vertices)
@@ -69,9 +69,9 @@ def _one_vertex_per_fan(surface: Surface) -> tuple[NDArray[np.intp], Index]:
 
 
 def _pairs_of_patches(surface: Surface, chosen: NDArray[np.intp], edges: Edges) -> tuple[Index, Index]:
-    """Half-edges of the chosen faces that are the two of a patch at an edge with n_e > 2.
+    """Pairs of half-edges of the chosen faces at edges with n_e > 2 where a patch has exactly two faces.
 
-    Where the patch has an orientation they run opposite ways in it: what has none stays cut open.
+    On an orientable patch the two half-edges must be opposite; other pairs stay cut open.
     """
     near, found = surface.faces[chosen], surface.orientation
     crowded = np.flatnonzero(edges.valence > 2)

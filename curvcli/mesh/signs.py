@@ -1,4 +1,4 @@
-"""Signs of determinants, decided exactly: a filter in floating point, then sums that lose nothing."""
+"""Exact signs of determinants: a floating-point filter, then error-free sums."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from ..support.compensated import two_difference, two_product
 from .triangles import EPSILON, Floats, Vector, dot
 
 Sign = NDArray[np.int8]
-# The sign of something in the columns it is given.
+# A function from columns to signs.
 _Decide = Callable[[NDArray[np.intp]], Sign]
 
 # The error of a determinant of vectors whose components are at most 1 in size, with room.
 _ROUNDING = 64 * EPSILON
 # Components below this, but not 0, lose digits of their products to the end of the range of doubles.
 _SMALL = 2.0**-280
-# Sums whose sign is not found after so many passes are left to rational arithmetic.
+# Sums with an undecided sign after so many passes go to rational arithmetic.
 _PASSES = 12
 # The permutations of three columns, with their signs.
 _EVEN, _ODD = ((0, 1, 2), (1, 2, 0), (2, 0, 1)), ((0, 2, 1), (1, 0, 2), (2, 1, 0))
 
 
 def sides(normal: Vector, other: Floats) -> Sign:
-    """The sign of normal · other where rounding leaves no doubt, else 0; all components at most 1 in size.
+    """The sign of normal · other where it exceeds the error bound, else 0; all components at most 1 in size.
 
     normal: cross products of two such vectors each.
     """
@@ -38,9 +38,9 @@ def sides(normal: Vector, other: Floats) -> Sign:
 def exact_sides(one: Floats, two: Floats, three: Floats) -> Sign:
     """The signs of det(one, two, three), none of them 0: vectors (3, n), components at most 1 in size, none all zero.
 
-    Where the determinant is 0 the sign is that after an infinitesimal disturbance: of every component, and larger by
-    far for the first vector than for the second, and for the second than for the third. Asked of vectors in the order
-    of a list, all signs are those of one list in general position.
+    A zero determinant gets the sign after an infinitesimal perturbation of every component, far larger for the first
+    vector than for the second, and for the second than for the third. For vectors in the order of a list all signs are
+    those of one list in general position.
     Source: Edelsbrunner and Mücke, Simulation of simplicity, 1990.
     """
     found = _determinants(one, two, three)
@@ -53,7 +53,7 @@ def exact_sides(one: Floats, two: Floats, three: Floats) -> Sign:
 
 
 def _disturbed(one: Floats, two: Floats, three: Floats) -> Iterator[_Decide]:
-    """What the determinant's sign is where all before it are 0: the terms of its expansion from the largest down."""
+    """The sign of a zero determinant: the first nonzero term of its perturbation expansion, from the largest down."""
 
     def minor(a: Floats, b: Floats, without: int, turn: int) -> _Decide:
         i, j = (without + 1) % 3, (without + 2) % 3  # cyclic: the sign of the cofactor is in the order
@@ -77,7 +77,7 @@ def _sign_of_difference(a: Floats, b: Floats, c: Floats, d: Floats) -> Sign:
     """The sign of a b − c d."""
     ab, ab_rest = two_product(a, b)
     cd, cd_rest = two_product(c, d)
-    # Rounding keeps the order: only where the rounded products agree do the rests decide.
+    # Rounding is monotone: the rounding errors decide only where the rounded products are equal.
     found: Sign = np.where(ab != cd, np.sign(ab - cd), np.sign(ab_rest - cd_rest)).astype(np.int8)
     return found
 
@@ -105,10 +105,10 @@ def _rational(*rows: list[float]) -> int:
 
 
 def _sign_of_sum(terms: Floats) -> Sign:
-    """(n,) signs of the exact sums of terms (m, n); 2 where it is not found.
+    """(n,) signs of the exact sums of terms (m, n); 2 where undecided.
 
-    Each pass replaces the terms by others of the same sum: the last by the rounded sum, those before by what rounding
-    took away. The sign is that of the last once it outweighs all others.
+    Each pass replaces the terms by others of the same sum: the last by the rounded sum, the others by rounding errors.
+    The sign is that of the last term once it exceeds the sum of all others.
     """
     found = np.full(terms.shape[1], 2, np.int8)
     open_, count = np.arange(terms.shape[1]), len(terms)

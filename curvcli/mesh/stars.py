@@ -1,7 +1,7 @@
-"""Which vertices have one fan of faces about them, and where the boundary is: by walking round every vertex.
+"""Fans and boundary of all stars, by walks round every vertex.
 
-Every edge is met at both its ends, so that the faces at each vertex are all that is looked at, and no edge is sorted:
-all vertices with as many faces are walked round at once, in arrays that are read in order.
+The walks use the faces at each vertex only, and no edge is sorted: all vertices with the same number of faces are
+walked round at once, in contiguous arrays.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from ..support.blocks import LONG, slices
 from .orientation import same_direction
 from .topology import Edges, Index, Mask, faces_at, find_edges, label_graph, neighbouring_corners
 
-# Stars of more faces go through the graph of corners: here each face is compared with each.
+# Stars with more faces use the graph of corners, because the walk compares each face with each.
 _WALK_LIMIT = 16
-# As many corners at a time: fewer, and calls cost more than what they do.
+# Corners per block; smaller blocks spend more time in calls than in arithmetic.
 _CORNERS = 65536
 
 
 @dataclass(frozen=True)
 class Stars:
-    """What the faces at each vertex say.
+    """The stars of all vertices.
 
-    corner_count: (V,) number of faces. lowest: (V,) the lowest vertex of the star. split: (V,) stars of more than one
-    fan of faces joined through edges with n_e = 2; ends of edges with n_e > 2 may be missed.
-    coherent: whether no two faces run along an edge the same way, so that no edge has more than two.
-    rim: half-edges whose edge has no other face, in no order; only some of them if not coherent.
+    corner_count: (V,) number of faces. lowest: (V,) the lowest vertex of the star. split: (V,) mask of the stars with
+    several fans of faces joined through edges with n_e = 2; ends of edges with n_e > 2 may be missing.
+    coherent: no edge has two half-edges of the same direction, and so none has more than two faces.
+    rim: half-edges of edges with one face, unordered; only some of them if not coherent.
     """
 
     corner_count: Index
@@ -46,19 +46,19 @@ class Stars:
 
 
 class _Walked(NamedTuple):
-    """Vertices whose faces are not seen to be one fan, and the boundary half-edges that leave the others."""
+    """Vertices whose faces the walk does not prove to be one fan, and the boundary half-edges leaving the others."""
 
     undecided: NDArray[np.intp]
     rim: Index
 
 
 def find_stars(faces: Index, vertices: int) -> Stars:
-    """Walk round all vertices."""
+    """Compute the stars of all vertices. faces: (F, 3). vertices: number of rows."""
     corners = _by_vertex(faces, vertices)
     count = np.diff(corners.indptr)
     lowest = np.arange(vertices, dtype=np.int32)
     undecided, rim = count > _WALK_LIMIT, []
-    for size, some in _alike(count):
+    for size, some in _by_face_count(count):
         found = _walk(faces, corners, size, some, lowest)
         undecided[found.undecided] = True
         rim.append(found.rim)
@@ -77,7 +77,7 @@ def find_stars(faces: Index, vertices: int) -> Stars:
 
 
 def _by_vertex(faces: Index, vertices: int) -> Any:
-    """The corners by vertex: a sparse matrix with the faces as row indices and the places of the corners as data."""
+    """The corners by vertex: a sparse matrix with faces as row indices and positions of corners in them as data."""
     n = len(faces)
     place, start = np.empty(3 * n, np.int8), np.empty(n + 1, np.int32)
     places = np.tile(np.arange(3, dtype=np.int8), min(n, LONG))
@@ -88,8 +88,8 @@ def _by_vertex(faces: Index, vertices: int) -> Any:
     return csr_array((place, faces.ravel(), start), shape=(n, vertices)).tocsc()
 
 
-def _alike(count: Index) -> Iterator[tuple[int, NDArray[np.intp]]]:
-    """Vertices with equally many faces, some at a time, and how many."""
+def _by_face_count(count: Index) -> Iterator[tuple[int, NDArray[np.intp]]]:
+    """Yield blocks of vertices with equally many faces, and that number."""
     for size in np.flatnonzero(np.bincount(count)[1 : _WALK_LIMIT + 1]) + 1:
         vertices = np.flatnonzero(count == size)
         for part in slices(len(vertices), _CORNERS // int(size)):
@@ -97,12 +97,12 @@ def _alike(count: Index) -> Iterator[tuple[int, NDArray[np.intp]]]:
 
 
 def _walk(faces: Index, corners: Any, size: int, vertices: NDArray[np.intp], lowest: Index) -> _Walked:
-    """Walk round some vertices with equally many faces, from face to face across the edge that arrives at the vertex.
+    """Walk round vertices with equally many faces, from face to face across the edge that arrives at the vertex.
 
-    Each face has one edge that leaves the vertex and one that arrives there: the next face is the one that leaves for
-    where this one arrives from. It is one fan if this meets all faces and, at both ends of the boundary, ends.
+    Each face has one edge that leaves the vertex and one that arrives at it. In the next face the edge that leaves is
+    the one that arrives in this face. The star is one fan if the walk meets all faces.
     """
-    # Rows are places in the star: operands are contiguous, and bits stand for sets of places.
+    # Rows are positions in the star, for contiguous operands; bits stand for sets of positions.
     at = corners.indptr.take(vertices).astype(np.intp) + np.arange(size)[:, None]
     place = corners.data.take(at)
     first = corners.indices.take(at)
@@ -123,7 +123,7 @@ def _walk(faces: Index, corners: Any, size: int, vertices: NDArray[np.intp], low
     for _ in range(size - 1):
         here = np.bitwise_or.reduce(next_face * ((here & bit[:, None]) != 0), axis=0)
         met |= here
-    # Where two faces leave for one vertex, or arrive from one, a place has two bits, or the walk has no end.
+    # If two faces leave for one vertex, or arrive from one, a position has two bits, or the walk does not end.
     single = (next_face & (next_face - 1)) == 0
     fan = (met == every) & single.all(axis=0) & ((next_face == 0).any(axis=0) == ends)
     some = np.flatnonzero(fan & ends)
@@ -132,7 +132,7 @@ def _walk(faces: Index, corners: Any, size: int, vertices: NDArray[np.intp], low
 
 
 def _split_by_graph(faces: Index, edges: Edges, vertices: int) -> Mask:
-    """The same by connected components of corners, for any winding; right at vertices all of whose faces are there."""
+    """`split` by connected components of corners, for any winding; right at vertices with all of their faces given."""
     _, label = label_graph(3 * len(faces), *neighbouring_corners(faces, *edges.pairs))
     vertex = faces.ravel()
     first = np.empty(vertices, np.int32)

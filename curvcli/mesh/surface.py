@@ -1,4 +1,4 @@
-"""Surface: points and triangles, and everything combinatorial that follows from them, worked out once and on demand."""
+"""Surface: points and triangles with their combinatorics, computed on demand and cached."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ from .volumes import triple_products
 if TYPE_CHECKING:
     from .file import MeshFile
 
-# Extents between these powers of two are computed in the file's own unit; outside, the eighth power of an edge, which
-# the cross ratio's square needs, would leave the range of doubles at edges 2⁵³ times shorter than the extent.
+# Extents between these powers of two are computed in the file's own unit. Outside, the eighth power of an edge, needed
+# by the square of the cross ratio, leaves the range of doubles for edges 2⁵³ times shorter than the extent.
 _LARGEST_EXPONENT = 60
 
 Orient = Literal["file", "outward"]
@@ -41,7 +41,7 @@ Orient = Literal["file", "outward"]
 STATUS = ("interior", "boundary", "degenerate", "nonmanifold", "unreferenced")
 
 
-# What the topology, the status of vertices and the orientation need of stars and edges.
+# Properties of stars and edges needed by topology, status of vertices and orientation.
 _OF_EDGES = (
     "interior",
     "without_orientation",
@@ -56,10 +56,10 @@ _OF_EDGES = (
 
 
 class CutFrom(NamedTuple):
-    """The surface that another one was cut out of.
+    """The surface that this one was cut from.
 
-    vertex: (V,) the vertex there of each vertex here. turned: (F,) faces that are wound here as that surface is
-    oriented, and there the other way; None if there are none.
+    vertex: (V,) the original vertex of each vertex. turned: (F,) mask of the faces whose winding here follows the
+    orientation of the original surface and not its file; None if there are none.
     """
 
     surface: Surface
@@ -114,7 +114,7 @@ class Surface(Incidence):
 
     def _check_finite(self) -> None:
         with np.errstate(over="ignore", invalid="ignore"):
-            if np.isfinite(self.xyz_given.sum()):  # nothing that is not finite adds up to what is
+            if np.isfinite(self.xyz_given.sum()):  # a finite sum proves that all terms are finite
                 return
         bad = ~np.isfinite(self.xyz_given).all(axis=0)
         if not bad.any():
@@ -143,7 +143,7 @@ class Surface(Incidence):
 
     @cached_property
     def unit_exponent(self) -> int:
-        """Lengths are computed in units of 2 to this power, which is exact.
+        """Exponent of the unit of computation, a power of two, so that scaling is exact.
 
         0 unless the mesh is so large or small that squares of areas would leave the range of doubles.
         """
@@ -153,7 +153,7 @@ class Surface(Incidence):
         return 0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else exponent
 
     def in_file_unit(self, values: NDArray[np.float64], length_exponent: int) -> NDArray[np.float64]:
-        """Values of a length exponent, from the unit of computation to the file's; NaN where no double holds them."""
+        """Convert values of a length exponent from the unit of computation to the file's; NaN on overflow."""
         power = length_exponent * self.unit_exponent
         if not power:
             return values
@@ -168,13 +168,13 @@ class Surface(Incidence):
         """(3, V) coordinates in the unit of computation, one contiguous row per coordinate."""
         if not self.unit_exponent:
             return self.xyz_given
-        with np.errstate(over="ignore", invalid="ignore"):  # only of vertices that no face uses; NaNs may signal
+        with np.errstate(over="ignore", invalid="ignore"):  # unreferenced vertices may overflow, and NaNs may signal
             return np.ldexp(self.xyz_given, -self.unit_exponent)
 
     @cached_property
     @frozen
     def base(self) -> NDArray[np.float64]:
-        """(3,) a point of the mesh about which moments are taken, so that an offset costs no digits."""
+        """(3,) a point of the mesh, the origin of moments, so that an offset costs no digits."""
         return self.xyz[:, self.faces[0, 0]].copy()
 
     # ------------------------------------------------------------------ orientation
@@ -182,13 +182,13 @@ class Surface(Incidence):
     @cached_property
     def _file_orientation(self) -> Orientation:
         if self.consistent_winding and self.is_manifold:
-            # One fan at every vertex: what hangs together at vertices hangs together across edges.
+            # With one fan at every vertex, the components by vertices are the components across edges.
             return Orientation(self.components.face, np.ones(self.components.count, bool), None)
         return orient(self.faces, self.edges)
 
     @cached_property
     def orientation(self) -> Orientation:
-        """Patches and the sign of each face; with orient="outward" closed patches that are inside out are turned."""
+        """Patches and the sign of each face; orient="outward" turns closed patches that are inside out."""
         found = self._file_orientation
         if self.orient == "file" or not self.inside_out.any():
             return found
@@ -199,13 +199,13 @@ class Surface(Incidence):
 
     @cached_property
     def orientable(self) -> bool:
-        """Whether every patch is."""
+        """True if every patch is orientable."""
         return bool(self.orientation.orientable.all())
 
     @cached_property
     @frozen
     def without_orientation(self) -> Mask:
-        """(V,) vertices of patches that have no orientation."""
+        """(V,) mask of the vertices of patches without an orientation."""
         mask = np.zeros(self.n_vertices, bool)
         if not self.orientable:
             mask[self.faces[~self.orientation.orientable[self.orientation.patch]].ravel()] = True
@@ -213,7 +213,7 @@ class Surface(Incidence):
 
     @cached_property
     def corner_sign(self) -> Sign | None:
-        """(F, 3) the sign with which each face's normal enters the star of each corner; None when all are +1."""
+        """(F, 3) the sign of each face's normal in the star of each corner; None if all are +1."""
         sign = self.orientation.face_sign
         if self.orientable:
             return None if sign is None else np.repeat(sign[:, None], 3, axis=1)
@@ -224,15 +224,15 @@ class Surface(Incidence):
 
     @cached_property
     def uncancelled(self) -> Uncancelled:
-        """Edges along which the oriented faces do not cancel."""
-        if self.coherent:  # two faces of one edge are turned or kept together
+        """Edges whose oriented half-edges do not cancel."""
+        if self.coherent:  # the two faces of an edge are turned or kept together
             return uncancelled_rim(self.faces, self.boundary_half_edges, self.orientation)
         return uncancelled(self.faces, self.edges, self.orientation, self.consistent_winding)
 
     @cached_property
     @frozen
     def closed_patches(self) -> Mask:
-        """(patches,) whether each edge of the patch has exactly two of its own faces, running opposite ways."""
+        """(patches,) flag: each edge of the patch has exactly two of its own faces, with opposite half-edges."""
         if not self.coherent:
             return closed_patches(self.faces, self.edges, self._file_orientation)
         closed = np.ones(len(self._file_orientation.orientable), bool)
@@ -241,12 +241,12 @@ class Surface(Incidence):
 
     @property
     def solids(self) -> Solids:
-        """The closed orientable patches as the file winds them: how they nest, and which are inside out."""
+        """The closed orientable patches as the file winds them, with their nesting."""
         return Solids(self, self._file_orientation)
 
     @property
     def inside_out(self) -> Mask:
-        """(patches,) closed orientable patches whose normals point to the wrong side, see `Solids`."""
+        """(patches,) mask of the closed orientable patches whose normals point to the wrong side, see `Solids`."""
         return self.solids.inside_out
 
     @cached_property
@@ -267,16 +267,16 @@ class Surface(Incidence):
         return by_label(self, face, pieces, "component")
 
     def compute_topology(self) -> None:
-        """Work out what every analysis asks of stars and edges."""
+        """Compute the cached properties of stars and edges that every analysis needs."""
         for known in _OF_EDGES:
             getattr(self, known)
         self.__dict__.pop("stars", None)
 
     def release_edges(self) -> None:
-        """Work out what every analysis asks of the edges, and give their memory back: 72 bytes per vertex.
+        """Compute the properties of edges that every analysis needs, and release the edges: 72 bytes per vertex.
 
-        They are looked for only where the winding does not cohere. Whatever asks for them later has them sorted again,
-        which costs less than the first touch of as much memory by all that does without them.
+        Edges are computed only if the winding is incoherent. A later use sorts them again, which costs less than the
+        page faults of passes that need no edges.
         """
         self.compute_topology()
         self.__dict__.pop("edges", None)

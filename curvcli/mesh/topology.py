@@ -1,7 +1,7 @@
-"""How triangles hang together: edges, twins and connected pieces, from the face list alone.
+"""Edges, twins and connected components of triangles, from the face list alone.
 
-Half-edge 3 f + k runs from corner k to corner k + 1 (mod 3) of face f; its index is also that of its tail's corner.
-Everything is counting and gathering over whole arrays, linear in the mesh.
+Half-edge 3 f + k runs from corner k to corner k + 1 (mod 3) of face f; its index is also that of the corner at its
+tail. All functions count and gather over whole arrays, in linear time.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from ..support.blocks import LONG, for_each, slices
 Index = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 
-# Of so many faces one is looked at first: nearly always it and its like join what can be joined.
+# The first search uses one of so many faces; they nearly always join all pieces that can be joined.
 _SAMPLE = 8
 
 
 class InnerEdges(NamedTuple):
-    """Some edges with n_e = 2, in the type that numpy gathers and scatters by.
+    """Some edges with n_e = 2, indices as intp for fast gathers and scatters.
 
-    where: which edges they are. a, b: (n,) their ends. one, other: (n,) their half-edges.
+    where: index of the edges. a, b: (n,) their ends. one, other: (n,) their half-edges.
     """
 
     where: slice | NDArray[np.intp]
@@ -42,7 +42,7 @@ class Edges:
     """The edges of a face list, sorted by (a, b).
 
     a, b: (E,) ends, a < b. order: (3F,) half-edges grouped by edge.
-    starts: (E + 1,) where each edge's half-edges begin in `order`; None where every edge has two.
+    starts: (E + 1,) first entry of each edge's half-edges in `order`; None if every edge has two.
     """
 
     a: Index
@@ -60,7 +60,7 @@ class Edges:
 
     @cached_property
     def start(self) -> Index:
-        """(E + 1,) where each edge's half-edges begin in `order`."""
+        """(E + 1,) first entry of each edge's half-edges in `order`."""
         start = np.arange(0, len(self.order) + 1, 2, dtype=np.int32) if self.starts is None else self.starts
         start.setflags(write=False)
         return start
@@ -69,14 +69,14 @@ class Edges:
     def valence(self) -> Index:
         """(E,) number of faces n_e."""
         if self.starts is None:
-            return np.broadcast_to(np.int32(2), len(self))  # without memory of its own
+            return np.broadcast_to(np.int32(2), len(self))  # a view without memory of its own
         valence = np.diff(self.starts)
         valence.setflags(write=False)
         return valence
 
     @cached_property
     def unpaired(self) -> NDArray[np.intp]:
-        """The edges with another n_e than 2."""
+        """The edges with n_e ≠ 2."""
         edges = np.zeros(0, np.intp) if self.starts is None else np.flatnonzero(self.valence != 2)
         edges.setflags(write=False)
         return edges
@@ -102,7 +102,7 @@ class Edges:
         return paired[::2], paired[1::2]
 
     def inner_edges(self, block: slice) -> InnerEdges:
-        """A block of the edges with n_e = 2, of which there are as many as `pairs`."""
+        """A block of the edges with n_e = 2; their number is that of `pairs`."""
         where = block if isinstance(self.inner, slice) else self.inner[block]
         both = self.a[where], self.b[where], self.pairs[0][block], self.pairs[1][block]
         return InnerEdges(where, *(np.ascontiguousarray(each, np.intp) for each in both))
@@ -113,7 +113,7 @@ class Edges:
         return chosen
 
     def _places(self, edges: NDArray[np.integer]) -> NDArray[np.intp]:
-        """Where `order` has all half-edges of the given edges, one edge after the other."""
+        """Positions in `order` of all half-edges of the given edges, one edge after the other."""
         valence = self.valence[edges]
         before = np.cumsum(valence) - valence
         places: NDArray[np.intp] = np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())
@@ -150,7 +150,7 @@ def find_edges(faces: Index, vertices: int) -> Edges:
     n = len(by_high.data)
     by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
     high, order, rows = by_low.indices, by_low.data, by_low.indptr
-    del by_high  # each array let go is memory that need not be touched for the first time
+    del by_high  # freed memory is reused and saves page faults
     first = np.ones(n, bool)
     np.not_equal(high[1:], high[:-1], out=first[1:])
     first[rows[rows < n]] = True
@@ -189,7 +189,7 @@ def _by_high(faces: Index, vertices: int) -> Any:
 
 
 def find_twins(edges: Edges) -> Index:
-    """(3F,) the other half-edge of each edge with n_e = 2, -1 on the boundary and where more than two faces meet."""
+    """(3F,) the twin of each half-edge across edges with n_e = 2; -1 at edges with n_e ≠ 2."""
     twin = np.full(len(edges.order), -1, np.int32)
     pairs = edges.pairs
     for block in slices(len(pairs[0]), LONG):
@@ -206,14 +206,14 @@ def label_graph(nodes: int, one: NDArray[np.integer], other: NDArray[np.integer]
 
 
 def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[int, Index]:
-    """Number of pieces connected by shared vertices, and the piece of each vertex that some face uses.
+    """Number of components connected by shared vertices, and the component of each referenced vertex.
 
     lowest: (V,) the lowest vertex of each star.
-    Every vertex points to its lowest neighbour if that is lower, and pointers are followed to their ends; the few
-    vertices without a lower neighbour are left to be joined, by some of the faces and then by what is left to do.
+    Every vertex points to its lowest neighbour if that is lower, and pointers are followed to their ends. The few
+    roots, vertices without a lower neighbour, are then joined: first by some faces, then by the rest as needed.
     """
     parent, found = lowest.copy(), []
-    for block in slices(len(parent)):  # pointers lead down, where all have been followed to their ends
+    for block in slices(len(parent)):  # pointers lead down, to vertices with a final pointer
         here = parent[block]
         while not np.array_equal(further := parent.take(here), here):
             here[:] = further
@@ -238,7 +238,7 @@ def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[in
 
 
 def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
-    """Number labels 0, 1, … in the order of the lowest index that carries them; labels nobody carries vanish."""
+    """Renumber labels 0, 1, … in the order of their first member; unused labels vanish."""
     lowest = np.full(count, len(label), np.int64)
     np.minimum.at(lowest, label, np.arange(len(label)))
     order = np.argsort(lowest, kind="stable")
@@ -250,7 +250,7 @@ def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
 
 def next_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
     """The next half-edge of the same face, which is also the next corner."""
-    # numpy divides several times faster than it takes remainders.
+    # numpy's integer division is several times faster than its remainder.
     first = half_edges // 3 * 3
     following: NDArray[np.integer] = half_edges + 1 - 3 * (half_edges == first + 2).astype(half_edges.dtype)
     return following

@@ -1,6 +1,6 @@
-"""Sweeps over the faces in cache-sized blocks: the one place where geometry is gathered and scattered.
+"""Geometry of faces in cache-sized blocks: edge vectors, normals, angles.
 
-Coordinates are kept apart so that every operand is contiguous, a block's temporaries stay in the second-level cache,
+One row per coordinate makes every operand contiguous, a block's temporaries stay in the second-level cache,
 and `np.add.at` scatters; this is several times faster than the same formulas on whole arrays.
 """
 
@@ -20,16 +20,16 @@ Vector = Sequence[Floats] | Floats
 
 EPSILON = float(np.finfo(np.float64).eps)
 
-# A vector area below this part of the area, or a scalar product below this part of |a||b|, is rounding alone.
+# A vector area below this part of the area, or a scalar product below this part of |a||b|, is rounding only.
 LOST = 1e-12
 
 
-# Below this ratio of twice the area to the longest edge squared, the cross product is worth its compensated form.
+# Below this ratio of twice the area to the longest edge squared, the cross product is computed in compensated form.
 _THIN = 1 / 16
 
-# Below this a square has lost digits to underflow.
+# Squares below this have lost digits to underflow.
 _SMALL_SQUARE = 2.0**-960
-# Areas below this count as none: their inverse would leave the range of doubles.
+# Areas below this are taken as 0: their inverse overflows.
 NO_AREA = 2.0**-1000
 
 
@@ -70,7 +70,7 @@ class Triangles:
     degenerate: Mask | None
 
     def no_angle(self, corner: int) -> Mask:
-        """Faces that have no angle at a corner: it lies on another one, or the product of its edges is lost."""
+        """Mask of the faces without an angle at a corner: a coincident corner, or a lost product of its edges."""
         return np.maximum(np.abs(self.cosines[corner]), self.twice_area) < _SMALL_SQUARE
 
     def angle(self, corner: int, out: Floats | None = None) -> Floats:
@@ -79,23 +79,23 @@ class Triangles:
         return angle
 
     def angles(self, room: Floats) -> list[Floats]:
-        """The angle at each corner; room: (3, n or more) where they are put."""
+        """The angle at each corner. room: (3, n or more), the output array."""
         n = len(self.twice_area)
         return [self.angle(corner, row[:n]) for corner, row in enumerate(room)]
 
     def extent(self) -> Floats:
-        """√(¾ Σ|e|²): no less than half the perimeter, nor more than 1.23 times that, for the root of one sum."""
+        """√(¾ Σ|e|²), between 1 and 1.23 times half the perimeter, at the cost of one square root."""
         extent: Floats = np.sqrt(1.5 * self.half_squares)
         return extent
 
 
 def by_corner(faces: Index) -> NDArray[np.intp]:
-    """(3, n) the corners of some faces, one contiguous row for each, in the type that numpy gathers and scatters by."""
+    """(3, n) the corners of some faces, one contiguous row for each corner, as intp for fast gathers and scatters."""
     return np.array(faces.T, np.intp, order="C")
 
 
 def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
-    """Edge vectors, normals and dot products of the given faces, to the last digits also where they are thin."""
+    """Compute edge vectors, normals and dot products of the given faces; in compensated arithmetic for thin faces."""
     corners = by_corner(faces)
     p, q, r = ([x.take(corner) for x in xyz] for corner in corners)
     u, w = [b - a for a, b in zip(p, q, strict=True)], [c - a for a, c in zip(p, r, strict=True)]
@@ -111,7 +111,7 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
     if len(thin):
         exact = cross_of_edges(*([x[thin] for x in corner] for corner in (p, q, r)))
         area, sides = _length(exact), [[x[thin] for x in side] for side in (u, v, w)]
-        # Where two corners coincide, rounding would leave the face an area, and the corners an angle.
+        # With coincident corners, rounding would give the face an area and the corners an angle.
         none = np.logical_or.reduce([area < NO_AREA, *(~np.any(side, axis=0) for side in sides)])
         area[none] = 0.0
         for component, better in zip(normal, exact, strict=True):
@@ -127,7 +127,7 @@ def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
 
 
 def _length(vector: Vector) -> Floats:
-    """|v|, also where its square is lost to underflow."""
+    """|v|, without underflow of its square."""
     square = dot(vector, vector)
     length: Floats = np.sqrt(square)
     tiny = np.flatnonzero(square < _SMALL_SQUARE)

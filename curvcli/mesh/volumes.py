@@ -1,4 +1,4 @@
-"""Volumes that faces span with the base point of their group."""
+"""Signed volumes of the tetrahedra that faces span with the base point of their group."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from .triangles import EPSILON, Floats, Triangles, dot, triangles
 
 
 def triple_products(xyz: Floats, faces: Index, label: Index) -> Floats:
-    """(F,) six times the volume that each face, as the file winds it, spans with the base point of its group.
+    """(F,) six times the signed volume of the tetrahedron of each face, as the file winds it, and its group's base.
 
-    label: group of each face; the base is the first corner of the group's first face. The sum over a closed group does
-    not depend on it, but its rounding does. Integer corners give integers, whose sums are exact; sixths are not.
+    label: group of each face; the base is the first corner of the group's first face. The sum over a closed group is
+    independent of the base, its rounding is not. Integer corners give integers, whose sums are exact.
     """
     product, base = np.empty(len(faces)), _bases(xyz, faces, label)
     for block in slices(len(faces)):
         t = triangles(xyz, faces[block])
-        # With the normal of the face: the product of two corners would have the error of their lengths, not of areas.
+        # From the normal of the face: a product of two corners has an error proportional to lengths instead of areas.
         product[block] = dot(_from_base(xyz, base, label[block], t), t.normal)
     return product
 
 
 def volume_errors(xyz: Floats, faces: Index, label: Index, chosen: NDArray[np.integer]) -> Floats:
-    """(n,) what rounding may add to the volumes that the chosen faces span and to the sum of these."""
+    """(n,) bounds of the rounding errors of the volumes of the chosen faces and of their sum."""
     terms, base = np.empty(len(chosen)), _bases(xyz, faces, label)
     for block in slices(len(chosen)):
         t = triangles(xyz, faces[chosen[block]])
@@ -36,7 +36,7 @@ def volume_errors(xyz: Floats, faces: Index, label: Index, chosen: NDArray[np.in
 
 
 def _bases(xyz: Floats, faces: Index, label: Index) -> Floats:
-    """(3, G) the first corner of the first face of each group; of one group the base of the surface."""
+    """(3, G) the first corner of the first face of each group; for one group the base of the surface."""
     if label.max() == 0:
         return xyz[:, faces[0, 0], None]
     first = np.full(int(label.max()) + 1, len(faces), np.int64)
@@ -45,6 +45,6 @@ def _bases(xyz: Floats, faces: Index, label: Index) -> Floats:
 
 
 def _from_base(xyz: Floats, base: Floats, label: Index, t: Triangles) -> list[Floats]:
-    """The first corners of some triangles, seen from the bases of their groups."""
+    """The first corners of some triangles relative to the bases of their groups."""
     at = base if base.shape[1] == 1 else base[:, label]
     return [x.take(t.corners[0]) - b for x, b in zip(xyz, at, strict=True)]

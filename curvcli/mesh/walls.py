@@ -1,4 +1,4 @@
-"""Common walls of bodies: coincident faces that face each other."""
+"""Common walls of bodies: coincident faces with opposite winding."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ Pairs = NDArray[np.int64]
 
 @cached
 def facing_pairs(surface: Surface) -> Pairs:
-    """(n, 2) pairs of faces with the same corners, wound opposite ways, that part two bodies; by their lower face.
+    """(n, 2) pairs of faces with the same corners and opposite winding between two bodies, sorted by their lower face.
 
-    Where such a wall ends, at least two more faces meet, one of each body: a sheet that has both its sides is no wall.
+    At the rim of a wall at least two more faces meet, one of each body; a double-sided sheet is no wall.
     """
     pairs = _opposite(surface)
     if not len(pairs):
@@ -40,7 +40,7 @@ def facing_pairs(surface: Surface) -> Pairs:
 
 
 def _opposite(surface: Surface) -> Pairs:
-    """Pairs of faces with the same corners, wound opposite ways as the file winds them; each face in one pair."""
+    """Pairs of faces with the same corners and opposite winding in the file; each face in one pair."""
     later = duplicate_faces(surface)
     if not len(later):
         return np.zeros((0, 2), np.int64)
@@ -50,7 +50,7 @@ def _opposite(surface: Surface) -> Pairs:
     chosen = chosen[corner[surface.faces[chosen]].all(axis=1)]
     faces = surface.faces[chosen]
     order = np.argsort(faces, axis=1)
-    # The sign of the permutation that sorts the corners tells the way round.
+    # The winding is the sign of the permutation that sorts the corners.
     even = (order[:, 1] - order[:, 0]) % 3 == 1
     ordered = np.sort(faces, axis=1)
     _, group = np.unique(ordered, axis=0, return_inverse=True)
@@ -69,7 +69,7 @@ def _opposite(surface: Surface) -> Pairs:
 
 
 def describe_walls(surface: Surface) -> str:
-    """How many pairs of coincident faces face each other, and what they are; empty without."""
+    """Describe the pairs of coincident faces with opposite winding; empty if there are none."""
     pairs = len(facing_pairs(surface))
     if not pairs:
         return ""

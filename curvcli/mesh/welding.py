@@ -22,12 +22,12 @@ _PAIRS = 1 << 20
 """Pairs of positions that are looked at together."""
 _CROWD = 200
 """Positions near a vertex, on average, of which a tolerance is too large for the mesh."""
-# Odd multipliers whose bits are well spread, one for each coordinate and one for the end.
+# Odd multipliers of a hash, with well spread bits: one for each coordinate and one for the end.
 _MIX = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0xD6E8FEB86659FD93)
 
 
 def welded(mesh: MeshFile, weld: str | float) -> MeshFile:
-    """The mesh with its corners at the lowest row of each group, and `welded_to`; its rows stay.
+    """Merge the vertices of a mesh: corners move to the lowest row of each group, `welded_to` is set, rows stay.
 
     weld: `auto` or `none` (nothing is merged), `exact`, or a tolerance relative to the diagonal of the bounding box.
     """
@@ -52,7 +52,7 @@ def welded(mesh: MeshFile, weld: str | float) -> MeshFile:
 
 
 def weld_exact(xyz: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Groups of exactly equal positions, at any scale (-0.0 equals 0.0).
+    """Group exactly equal positions (-0.0 equals 0.0).
 
     xyz: (3, n) float64 or float32, one row per coordinate.
     Returns the lowest index of each group (m,), ascending, and for each position the number of its group (n,).
@@ -71,9 +71,9 @@ def weld_exact(xyz: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int32], NDArr
 def _lowest_equal(xyz: NDArray[np.floating[Any]]) -> NDArray[np.int32]:
     """For each position the lowest index of an equal one.
 
-    A hash table filled in bulk: of all positions that fall into a slot the lowest index stays, whoever equals it is
-    settled, the others (few) go on to the next round with another hash. Equality is always tested on the bits. All in
-    pieces, since the first touch of memory costs about as much as the arithmetic on it.
+    A hash table filled in bulk: each slot keeps the lowest index, positions equal to it are settled, and the few others
+    go to the next round with another hash. Equality is tested on the bits. The work is done in blocks, because page
+    faults cost about as much as the arithmetic.
     """
     lowest, table = np.empty(xyz.shape[1], np.int32), np.empty(1, np.int32)
     count, pieces = len(lowest), list[slice | NDArray[np.int32]](slices(len(lowest), LONG))
@@ -88,7 +88,7 @@ def _lowest_equal(xyz: NDArray[np.floating[Any]]) -> NDArray[np.int32]:
             table[slot[::-1].astype(np.intp)] = _indices(piece)[::-1]  # the last assignment wins: the lowest index
         index = np.concatenate(list(map_pieces(zip(pieces, slots, strict=True), partial(_settle, lowest, xyz, table))))
         count, pieces = len(index), [index[block] for block in slices(len(index), LONG)]
-    # Only a file made for it gets here: sort what is left.
+    # Only an adversarial file gets here: sort the rest.
     columns = _bits(xyz, index)
     order = np.lexsort((index, *columns))
     new = np.ones(len(order), np.bool_)
@@ -100,7 +100,7 @@ def _lowest_equal(xyz: NDArray[np.floating[Any]]) -> NDArray[np.int32]:
 def _slots(
     xyz: NDArray[np.floating[Any]], round_: int, shift: np.uint64, piece: slice | NDArray[np.int32]
 ) -> NDArray[np.uint32]:
-    """Where the table has the positions of a piece."""
+    """Slots of the positions of a piece in the hash table."""
     return (_hash(_bits(xyz, piece), round_) >> shift).astype(np.uint32)
 
 
@@ -110,7 +110,7 @@ def _settle(
     table: NDArray[np.int32],
     placed: tuple[slice | NDArray[np.int32], NDArray[np.uint32]],
 ) -> NDArray[np.int32]:
-    """The positions of a piece that do not equal what the table has in their slot; all have it for their lowest."""
+    """Set `lowest` of a piece to the table entries in its slots; return the positions that differ from theirs."""
     piece, slot = placed
     candidate = table.take(slot)
     both = zip(_bits(xyz, piece), _bits(xyz, candidate), strict=True)
@@ -121,7 +121,7 @@ def _settle(
 
 
 def _indices(piece: slice | NDArray[np.int32]) -> NDArray[np.int32]:
-    """The indices that a piece stands for."""
+    """The indices of a piece."""
     return np.arange(piece.start, piece.stop, dtype=np.int32) if isinstance(piece, slice) else piece
 
 
@@ -142,7 +142,7 @@ def _hash(columns: list[NDArray[Any]], round_: int) -> NDArray[np.uint64]:
 
 
 def position_keys(xyz: NDArray[np.float64]) -> NDArray[np.uint64]:
-    """(n,) a number for each position (3, n) that equal positions share, and others hardly ever."""
+    """(n,) a hash of each position (3, n); equal positions have equal hashes."""
     keys = np.empty(xyz.shape[1], np.uint64)
     for block in slices(len(keys)):
         keys[block] = _hash([(row[block] + 0.0).view(np.uint64) for row in xyz], 0)
@@ -152,11 +152,12 @@ def position_keys(xyz: NDArray[np.float64]) -> NDArray[np.uint64]:
 def weld_within(
     xyz: NDArray[np.float64], tolerance: float, among: NDArray[np.bool_] | None = None
 ) -> NDArray[np.int32]:
-    """For each position the lowest index of its group: positions joined by steps of at most `tolerance` times the
-    diagonal of the bounding box.
+    """Group positions joined by steps of at most `tolerance` times the diagonal of the bounding box.
+
+    Returns the lowest index of each position's group (n,).
 
     xyz: (3, n). Positions that are not finite stay alone. among: (n,) the positions that may be joined, by default all.
-    Errors: InputError where so many positions are that near to one another that their pairs would take too long.
+    Errors: InputError for too many pairs of positions within the tolerance.
     """
     from scipy.spatial import cKDTree
 
@@ -199,9 +200,9 @@ def weld_within(
 
 
 def _near_pairs(tree: cKDTree, reach: float, near: int) -> Iterator[tuple[NDArray[Any], NDArray[Any]]]:
-    """Pairs of positions within reach of each other, all or, where a crowd has very many, in blocks.
+    """Yield pairs of positions within reach of each other, all at once or, for very many, in blocks.
 
-    near: how many lie around a position on average.
+    near: average number of neighbours of a position.
     """
     if near * tree.n <= _PAIRS:
         a, b = tree.query_pairs(reach, output_type="ndarray").T

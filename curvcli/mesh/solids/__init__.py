@@ -1,1 +1,1 @@
-"""Closed surfaces in space: on which side of them a point lies, which lie inside which, and which cross."""
+"""Closed surfaces in space: sides of points, nesting and crossings."""

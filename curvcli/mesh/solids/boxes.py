@@ -1,4 +1,4 @@
-"""A tree of axis-parallel boxes: candidates for contact, found level by level in whole arrays."""
+"""Bounding-box tree: candidate pairs for contact, searched level by level in whole arrays."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-# Children of a node, and candidates that are expanded at a time.
+# Children of a node, and number of candidates expanded at a time.
 _WIDTH = 4
 _AT_ONCE = 1 << 15
 _BITS = 16
@@ -24,14 +24,14 @@ class BoxTree:
     """One tree of boxes for each group of items; a node holds up to four consecutive nodes of the level below.
 
     low, high: (3, n) corners of the items' boxes. group: (n,) group of each item; every group has an item.
-    Items are sorted along a space-filling curve, so building and searching take time near n log n.
+    Items are sorted along a space-filling curve; building and searching take O(n log n) on usual meshes.
     """
 
     def __init__(self, low: Floats, high: Floats, group: NDArray[np.integer[Any]], groups: int) -> None:
         self.groups = groups
         self.order = _along_a_curve(low, high, group, groups)
         count = np.bincount(group, minlength=groups)
-        # Rows that are not contiguous would be copied whole for every few that are taken of them.
+        # Contiguous rows: indexing a non-contiguous array would copy all of it.
         self._low, self._high = ([np.ascontiguousarray(rows[:, self.order])] for rows in (low, high))
         self._first = [_starts(count)]
         while count.max() > 1:
@@ -45,15 +45,14 @@ class BoxTree:
             count = fewer
 
     def members(self, group: Ints) -> tuple[Ints, Ints]:
-        """Where `order` has the items of some groups: the place of the first, and how many there are."""
+        """Position in `order` of the first item of each given group, and their numbers."""
         first = self._first[0]
         return first[group], first[group + 1] - first[group]
 
     def meeting(self, one: Ints, other: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
-        """Items of two groups whose boxes meet, in pieces: number of the pair of groups, item and item.
+        """Yield pairs of items of two groups whose boxes meet: number of the pair of groups, item and item.
 
-        one, other: (n,) groups of each pair. Of a group with itself each pair of items comes once, and no item with
-        itself.
+        one, other: (n,) groups of each pair. For a group with itself each pair comes once, and no item with itself.
         """
         same = one == other
         stack = [(len(self._first) - 1, np.arange(len(one)), one, other)]
@@ -81,9 +80,9 @@ class BoxTree:
         return meet
 
     def holding(self, points: Floats, group: Ints, above: bool = False) -> Iterator[tuple[Ints, Ints]]:
-        """Items of one group each whose boxes hold a point, in pieces: number of the point, and item.
+        """Yield the items of one group per point whose boxes contain it: number of the point, and item.
 
-        points: (3, n). above: also boxes that the ray from the point along the third axis meets.
+        points: (3, n). above: include the boxes that the ray from the point along the third axis meets.
         """
         stack = [(len(self._first) - 1, np.arange(len(group)), group)]
         while stack:
@@ -106,7 +105,7 @@ class BoxTree:
                 yield point, self.order[node]
 
     def _below(self, level: int, group: Ints, node: Ints) -> tuple[Ints, Ints]:
-        """The children of some nodes: where the parent stands among these, and the child's node."""
+        """The children of some nodes: index of the parent among these, and node of the child."""
         above, below = self._first[level], self._first[level - 1]
         start = below[group] + _WIDTH * (node - above[group])
         count = np.minimum(_WIDTH, below[group + 1] - start)
@@ -115,12 +114,12 @@ class BoxTree:
 
 
 def _starts(count: Ints) -> Ints:
-    """(n + 1,) where runs of these lengths begin."""
+    """(n + 1,) starts of runs of these lengths."""
     return np.concatenate([[0], np.cumsum(count)])
 
 
 def _along_a_curve(low: Floats, high: Floats, group: NDArray[np.integer[Any]], groups: int) -> Ints:
-    """Items sorted by group, and within it along Morton's curve through the middles of their boxes."""
+    """Items sorted by group, and within it along the Morton curve through the centres of their boxes."""
     code = np.zeros(len(group), np.uint64)
     for axis in range(3):
         middle = low[axis] / 2 + high[axis] / 2

@@ -1,4 +1,4 @@
-"""Where closed surfaces touch or cross each other: pairs of faces in contact, and points on both sides of it."""
+"""Contacts of closed surfaces: pairs of touching or crossing faces, and sample points on both sides of them."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ..triangles import cross, dot
 from .sides import CERTAIN, ROUNDING, Floats, Ints, Mask, Sides, certain_sign, permanent, size
 
 _EDGES = ((0, 1), (1, 2), (2, 0))
-# Points on an edge, and from there towards the opposite corner.
+# Sample points on an edge, and from there towards the opposite corner.
 _INWARDS = (0.0, 1 / 64, 1 / 4)
 
 
 class Contacts(NamedTuple):
-    """Pairs of faces, of two surfaces each, that touch or are within rounding of it, and the pairs that cross.
+    """Pairs of faces of two surfaces that touch within rounding, and pairs of surfaces that cross.
 
     pair: (n,) number of the pair of surfaces. one, other: (n,) faces. crossing: pairs of surfaces of which two faces
     meet along a segment within both, beyond rounding.
@@ -44,7 +44,7 @@ def find_contacts(sides: Sides, one: Ints, other: Ints) -> Contacts:
 
 
 def _test(sides: Sides, f: Ints, g: Ints) -> tuple[Mask, Mask]:
-    """Whether faces f and g may touch, and whether they surely meet along a segment within both."""
+    """(n,) flags: faces f and g may touch; faces f and g certainly meet along a segment inside both."""
     rounding = ROUNDING * np.maximum(sides.reach.take(f), sides.reach.take(g))
     p, q = sides.corners(f), sides.corners(g)
     above, below = _heights(p, q, rounding), _heights(q, p, rounding)
@@ -62,19 +62,19 @@ def _test(sides: Sides, f: Ints, g: Ints) -> tuple[Mask, Mask]:
 
 
 class _Heights(NamedTuple):
-    """Three corners over the plane of a face, all (3, n): six times the volumes, their errors and certain signs."""
+    """Heights of three corners over the plane of a face, all (3, n): 6 × volumes, their errors and certain signs."""
 
     value: Floats
     error: Floats
     sign: NDArray[np.int8]
 
     def at(self, chosen: NDArray[np.intp]) -> _Heights:
-        """Those of some faces."""
+        """The heights for some faces."""
         return _Heights(self.value[:, chosen], self.error[:, chosen], self.sign[:, chosen])
 
 
 def _heights(points: Floats, face: Floats, rounding: Floats) -> _Heights:
-    """On which side of the plane of a face three points lie, 0 within rounding of it."""
+    """Sides of three points about the plane of a face, 0 within rounding of it."""
     a, b, c = face
     u, w = b - a, c - a
     normal, terms, lengths = cross(u, w), permanent(np.abs(u), np.abs(w)), size(u) + size(w)
@@ -86,7 +86,7 @@ def _heights(points: Floats, face: Floats, rounding: Floats) -> _Heights:
 
 
 def _may_meet(p: Floats, q: Floats, face: Floats, sides: NDArray[np.int8], rounding: Floats) -> Mask:
-    """Whether the edge from p to q may touch a face; sides: +1 where both ends surely lie on one side of its plane."""
+    """(n,) flags: the edge pq may touch a face. sides: ±1 if both ends certainly lie on one side of its plane."""
     along, d = q - p, face - p
     length, lengths, sizes = size(along), [size(x) for x in d], np.abs(along)
     signs = []
@@ -100,8 +100,10 @@ def _may_meet(p: Floats, q: Floats, face: Floats, sides: NDArray[np.int8], round
 
 
 def _cut(p: Floats, q: Floats, above: _Heights, below: _Heights, rounding: Floats) -> Mask:
-    """Whether faces p and q surely meet along a segment within both: each has corners on both sides of the other's
-    plane, and their chords on the common line overlap."""
+    """(n,) flags: faces p and q certainly meet along a segment inside both.
+
+    Each has corners on both sides of the other's plane, and their chords on the common line overlap.
+    """
     through = np.zeros(p.shape[-1], bool)
     mixed = [(height.sign.min(axis=0) < 0) & (height.sign.max(axis=0) > 0) for height in (above, below)]
     chosen = np.flatnonzero(mixed[0] & mixed[1])
@@ -118,8 +120,8 @@ def _cut(p: Floats, q: Floats, above: _Heights, below: _Heights, rounding: Float
 
 
 def _chord(face: Floats, origin: Floats, line: Floats, height: _Heights) -> tuple[Floats, Floats, Floats]:
-    """Where a face begins and ends on the line that it has in common with a plane, and the error of that."""
-    # The corner that is alone on its side.
+    """Ends of a face's chord on its line of intersection with a plane, and their error."""
+    # The corner alone on its side of the plane.
     lone = np.where((height.sign > 0).sum(axis=0) == 1, height.sign.argmax(axis=0), height.sign.argmin(axis=0))
     column = np.arange(len(lone))
     p, above = face[lone, :, column].T, height.value[lone, column]
@@ -135,7 +137,7 @@ def _chord(face: Floats, origin: Floats, line: Floats, height: _Heights) -> tupl
 
 
 class Samples(NamedTuple):
-    """Points on surfaces: points (3, n), pair (n,) the pair of surfaces, first (n,) whether on the first of the two."""
+    """Points on surfaces: points (3, n), pair (n,) the pair of surfaces, first (n,) True on the first of the two."""
 
     points: Floats
     pair: Ints
@@ -143,10 +145,10 @@ class Samples(NamedTuple):
 
 
 def samples(sides: Sides, contacts: Contacts, most: int) -> Samples:
-    """Points of faces in contact: the middles, and points on and beside the pieces into which contact cuts their edges.
+    """Sample faces in contact: centres, and points on and beside the pieces into which contact cuts their edges.
 
-    Where faces cross along their edges only, edges or what is beside them lie inside and outside.
-    most: pairs of faces that are looked at of each pair of surfaces, evenly spread over all.
+    If faces cross along their edges only, points on or beside the edges lie inside and outside.
+    most: number of pairs of faces sampled per pair of surfaces, evenly spread over all.
     """
     order = np.argsort(contacts.pair, kind="stable")
     count = np.bincount(contacts.pair)
@@ -169,8 +171,8 @@ def samples(sides: Sides, contacts: Contacts, most: int) -> Samples:
 
 
 def _cuts(p: Floats, q: Floats, face: Floats) -> Floats:
-    """(4, n) where an edge, from p at 0 to q at 1, meets the plane of a face and, seen along its normal, the lines of
-    its edges; 0 where it does not."""
+    """(4, n) parameters on the edge from p (0) to q (1) at the plane of a face and, in projection along its normal, at
+    the lines of its three edges; 0 for no intersection."""
     a, b, c = face
     normal = cross(b - a, c - a)
     walls = [normal, *(cross(normal, head - tail) for tail, head in ((a, b), (b, c), (c, a)))]
@@ -183,13 +185,13 @@ def _cuts(p: Floats, q: Floats, face: Floats) -> Floats:
 
 
 def _keys(sides: Sides, pair: Ints, face: Ints) -> Ints:
-    """A number for each face in each pair of surfaces."""
+    """A unique key of each face in each pair of surfaces."""
     keys: Ints = pair * sides.faces.shape[1] + face
     return keys
 
 
 def _pieces(cuts: Floats, key: Ints) -> tuple[Floats, Ints]:
-    """The middle of each piece of an edge, as a part of its length, and a row that has the edge; key: of the edges."""
+    """Parameter of the middle of each piece of an edge, and a row with the edge. key: of the edges."""
     _, first, edge = np.unique(key, return_index=True, return_inverse=True)
     number = len(first)
     of = np.concatenate([np.tile(edge.ravel(), len(cuts)), np.arange(number), np.arange(number)])

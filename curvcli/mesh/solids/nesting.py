@@ -1,7 +1,7 @@
-"""How closed surfaces lie inside one another, and which of them cross: depth by winding numbers.
+"""Nesting of closed surfaces: depth by winding numbers, and pairs that cross.
 
-Boxes only save work. A cavity that touches the wall from inside is a cavity, and bodies that touch from outside are two
-bodies: what touches does not cross.
+Bounding boxes only save work. Touching is not crossing: a cavity may touch its outer wall from inside, and bodies may
+touch each other from outside.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from .boxes import BoxTree
 from .contacts import find_contacts, samples
 from .sides import INSIDE, OUTSIDE, ROUNDING, Floats, Ints, Mask, Sides
 
-# Pairs of faces in contact, of two surfaces, that are looked at for points on both sides.
+# Number of pairs of faces in contact, per pair of surfaces, that are sampled for points on both sides.
 _CONTACTS = 20_000
-# Points of a surface that are tried, more each time, until one does not lie on the other surface.
+# Numbers of points of a surface that are tried in turn until one does not lie on the other surface.
 _TRIED = (1, 32, 4096)
 
 
 class Nesting(NamedTuple):
-    """depth: (n,) how many of the other surfaces each lies inside; 0 of those that cross another, which have none.
+    """depth: (n,) number of other surfaces around each; 0 for surfaces that cross another, which have no depth.
 
     crossing: (m, 2) pairs that cross or coincide, ascending.
     """
@@ -32,7 +32,7 @@ class Nesting(NamedTuple):
     crossing: Ints
 
     def crosses(self) -> Mask:
-        """(n,) surfaces that cross or coincide with another one."""
+        """(n,) mask of the surfaces that cross or coincide with another one."""
         mask = np.zeros(len(self.depth), bool)
         mask[self.crossing.ravel()] = True
         return mask
@@ -41,8 +41,8 @@ class Nesting(NamedTuple):
 def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integer[Any]], sign: Ints) -> Nesting:
     """The nesting of closed surfaces.
 
-    xyz: (3, V). faces: (F, 3). surface: (F,) the surface of each face, -1 for none. sign: (n,) of their volumes, 0
-    within rounding.
+    xyz: (3, V). faces: (F, 3). surface: (F,) the surface of each face, -1 for none. sign: (n,) signs of the volumes,
+    0 within rounding.
     """
     n = len(sign)
     low, high = _boxes(xyz, faces, surface, n)
@@ -56,7 +56,7 @@ def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integ
         return Nesting(np.zeros(n, np.int64), np.zeros((0, 2), np.int64))
     one, other = pairs[:, np.lexsort(pairs[::-1])]
     used, number = np.unique([one, other], return_inverse=True)
-    place = np.full(n + 1, -1, np.int64)  # the last for faces of no surface
+    place = np.full(n + 1, -1, np.int64)  # the last entry is for faces of no surface
     place[used] = np.arange(len(used))
     chosen = np.flatnonzero(place[surface] >= 0)
     sides = Sides(xyz, faces[chosen], place[surface[chosen]], len(used))
@@ -82,7 +82,7 @@ def _boxes(
 
 
 def _deep(low: Floats, high: Floats, one: Ints, other: Ints) -> Mask:
-    """Whether boxes have more in common than a wall, beyond rounding: others belong to bodies side by side."""
+    """(n,) flags: the boxes overlap by more than a common wall, beyond rounding; others hold bodies side by side."""
     reach = ROUNDING * np.maximum(np.abs(low), np.abs(high))
     rounding = np.maximum(reach[:, one], reach[:, other])
     depth = np.minimum(high[:, one], high[:, other]) - np.maximum(low[:, one], low[:, other])
@@ -92,10 +92,10 @@ def _deep(low: Floats, high: Floats, one: Ints, other: Ints) -> Mask:
 
 
 class _Search:
-    """Pairs of surfaces whose boxes meet, and what is known of the sides of the one about the other.
+    """Pairs of surfaces whose boxes meet, and the known sides of each about the other.
 
-    inside, outside: (2, pairs) whether some point of the one lies there about the other, and of the other about the
-    one.
+    inside, outside: (2, pairs) flags: a point of the first is inside (outside) the second, and of the second inside
+    (outside) the first.
     """
 
     def __init__(self, sides: Sides, pairs: Ints, low: Floats, high: Floats) -> None:
@@ -110,7 +110,7 @@ class _Search:
         for way, (a, b) in enumerate(((one, other), (other, one))):
             slack = np.maximum(rounding[:, a], rounding[:, b])
             self.inner[way] = ((low[:, a] >= low[:, b] - slack) & (high[:, a] <= high[:, b] + slack)).all(axis=0)
-        self.outside |= ~self.inner  # it reaches beyond the box
+        self.outside |= ~self.inner  # its box reaches beyond the other's
         if len(contacts.pair):
             found = samples(sides, contacts, _CONTACTS)
             self._look(found.points, found.pair, np.where(found.first, 0, 1))
@@ -119,7 +119,7 @@ class _Search:
         self.crossing |= (self.inside & self.outside).any(axis=0)
 
     def _look(self, points: Floats, pair: Ints, way: Ints) -> None:
-        """Note the sides of points of surfaces about the others of their pairs."""
+        """Record the sides of points of surfaces about the other surface of their pair."""
         for block in slices(len(pair)):
             side = self.sides.of(points[:, block], self.pairs[1 - way[block], pair[block]])
             for found, wanted in ((self.inside, INSIDE), (self.outside, OUTSIDE)):
@@ -127,7 +127,7 @@ class _Search:
                 found[way[block][of], pair[block][of]] = True
 
     def _try(self, most: int) -> None:
-        """Look at some points of those surfaces whose side is not known yet."""
+        """Test up to `most` points of each surface whose side is still unknown."""
         way, pair = np.nonzero(self.inner & ~(self.inside | self.outside) & ~self.crossing)
         if not len(pair):
             return
@@ -142,14 +142,14 @@ class _Search:
             self._look(corners.mean(axis=0), pair[row], way[row])
 
     def nesting(self, sign: Ints) -> Nesting:
-        """Depths and crossing pairs; sign: of the volumes."""
+        """Compute depths and crossing pairs. sign: of the volumes."""
         (one, other), n = self.pairs, len(sign)
         unknown = (~(self.inside | self.outside)).all(axis=0) & ~self.crossing
         depth = np.zeros(n, np.int64)
         for way in (0, 1):
             within = self.inside[way] & ~self.crossing
             np.add.at(depth, self.pairs[way][within], 1)
-        # A core that fills its cavity: of two coinciding surfaces the cavity holds the core, and nothing else is sound.
+        # A core that fills its cavity: of two coincident surfaces of opposite signs the cavity contains the core.
         twins = np.flatnonzero(unknown)
         filled = (depth[one[twins]] % 2 == 1) & (sign[one[twins]] * sign[other[twins]] < 0)
         core = np.where(sign[one] > 0, one, other)[twins[filled]]

@@ -1,4 +1,4 @@
-"""Notices of solid patches: those that are inside out, and those that cross."""
+"""Notices of solid patches that are inside out or cross each other."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def solid_notices(surface: Surface) -> Iterator[Notice]:
 
 
 def _inside_out(surface: Surface, wrong: NDArray[np.intp]) -> str:
-    """What is wrong with these patches."""
+    """Describe patches that are inside out."""
     cavities = int((surface.solids.depth[wrong] % 2).sum())
     if not cavities:
         return (
@@ -58,7 +58,7 @@ def _inside_out(surface: Surface, wrong: NDArray[np.intp]) -> str:
 
 
 def list_kinds(surface: Surface, patches: NDArray[np.intp]) -> str:
-    """How many bodies and cavities there are among these patches."""
+    """Number of bodies and of cavities among these patches, in words."""
     cavities = int((surface.solids.depth[patches] % 2).sum())
     bodies = len(patches) - cavities
     parts = [(bodies, "body", "bodies"), (cavities, "cavity", "cavities")]
@@ -66,7 +66,7 @@ def list_kinds(surface: Surface, patches: NDArray[np.intp]) -> str:
 
 
 def first_pair(surface: Surface) -> str:
-    """The first two patches that cross, by their lowest faces."""
+    """The first pair of crossing patches, by their lowest faces, in words."""
     if not len(surface.solids.crossing):
         return ""
     one, other = surface.solids.first_face[surface.solids.crossing[0]]

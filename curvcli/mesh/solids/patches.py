@@ -1,4 +1,4 @@
-"""The solid patches of a surface, those that are closed and orientable: how they nest, and which are inside out."""
+"""Solid patches of a surface (closed and orientable): nesting, and patches that are inside out."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 _Found = TypeVar("_Found")
 
 
-class _Kept(Generic[_Found]):
-    """A property of the solids of a surface, kept with the surface, which they refer to and it must not refer to."""
+class _CachedOnSurface(Generic[_Found]):
+    """A property of the solids of a surface, cached on the surface to avoid a reference cycle."""
 
     def __init__(self, find: Callable[[Solids], _Found]) -> None:
         self._of = cached(lambda surface: find(surface.solids))
@@ -32,7 +32,7 @@ class _Kept(Generic[_Found]):
 
 
 class Patched(Protocol):
-    """A surface whose patches nest: see `Surface`."""
+    """Protocol of a surface with patches: see `Surface`."""
 
     @property
     def xyz(self) -> Any: ...
@@ -47,9 +47,9 @@ class Patched(Protocol):
 
 
 class Solids:
-    """Patches that have an inside.
+    """Closed orientable patches, which have an inside.
 
-    surface: their surface. orientation: as the file winds it. mask: (patches,) which are closed and orientable.
+    surface: their surface. orientation: as the file winds it. mask: (patches,) closed and orientable patches.
     """
 
     def __init__(self, surface: Patched, orientation: Orientation) -> None:
@@ -57,21 +57,21 @@ class Solids:
         self.mask: Mask = surface.closed_patches & orientation.orientable
         self.mask.setflags(write=False)
 
-    @_Kept
+    @_CachedOnSurface
     def count(self) -> int:
         """Number of solid patches."""
         return int(np.count_nonzero(self.mask))
 
-    @_Kept
+    @_CachedOnSurface
     @frozen
     def depth(self) -> NDArray[np.int64]:
-        """(patches,) the number of other solid patches around each; 0 for those that cross another: they have none."""
+        """(patches,) number of other solid patches around each; 0 for patches that cross another: no depth."""
         depth = np.zeros(len(self.mask), np.int64)
         if self.count > 1:
             depth[self.mask] = self._nesting.depth
         return depth
 
-    @_Kept
+    @_CachedOnSurface
     @frozen
     def crossing(self) -> NDArray[np.int64]:
         """(m, 2) pairs of solid patches that cross or coincide."""
@@ -79,21 +79,21 @@ class Solids:
             return np.zeros((0, 2), np.int64)
         return np.flatnonzero(self.mask)[self._nesting.crossing]
 
-    @_Kept
+    @_CachedOnSurface
     def _nesting(self) -> Nesting:
-        from .nesting import nest  # of a single patch nobody asks
+        from .nesting import nest  # deferred: a single patch needs no nesting
 
         number = np.where(self.mask, np.cumsum(self.mask) - 1, -1)[self._orientation.patch]
         sign = np.sign(self._volumes[self.mask]).astype(np.int64)
         return nest(self.surface.xyz, self.surface.faces, number, sign)
 
-    @_Kept
+    @_CachedOnSurface
     @frozen
     def inside_out(self) -> Mask:
-        """(patches,) those whose volume has the wrong sign, beyond rounding.
+        """(patches,) mask of the patches whose volume has the wrong sign, beyond rounding.
 
-        Bodies, at even depth, have a positive volume, cavities, at odd depth, a negative one; patches that cross
-        another are left out.
+        Bodies have even depth and a positive volume, cavities odd depth and a negative one; patches that cross another
+        are left out.
         """
         wrong, volume = self.mask.copy(), self._volumes
         if self.count > 1:
@@ -106,7 +106,7 @@ class Solids:
             wrong &= volume + self._sum(errors, chosen) < 0
         return wrong
 
-    @_Kept
+    @_CachedOnSurface
     def _volumes(self) -> NDArray[np.float64]:
         """(patches,) volumes as the patches are oriented."""
         if not self.count:
@@ -119,7 +119,7 @@ class Solids:
         patch = self._orientation.patch if faces is None else self._orientation.patch[faces]
         return np.asarray(np.bincount(patch, values, minlength=len(self.mask)), np.float64)
 
-    @_Kept
+    @_CachedOnSurface
     @frozen
     def first_face(self) -> NDArray[np.int64]:
         """(patches,) the lowest face of each patch of the surface."""

@@ -1,4 +1,4 @@
-"""On which side of closed surfaces a point lies: winding numbers whose every sign is certain."""
+"""Sides of points about closed surfaces, by winding numbers from certain signs."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Vector = Sequence[Floats] | Floats
 
-# Determinants of three differences of coordinates have a relative error below 5ε of the sum of their absolute terms.
+# Determinants of three differences of coordinates have an error below 5ε times the sum of their absolute terms.
 CERTAIN = 8 * EPSILON
-# Coordinates that were turned, moved and written have lost so much of the largest of them.
+# Rounding of coordinates that were rotated, moved and written, relative to the largest of them.
 ROUNDING = 8 * EPSILON
-# Rays whose signs double precision leaves open are followed exactly, so many at a time.
+# Rays with signs undecided in double precision are followed exactly, so many at a time.
 _FEW = 2048
 
-# The axes of a rotation that has no simple relation to coordinate planes; rays run along the third.
+# The axes of a rotation in general position to the coordinate planes; rays run along the third axis.
 _a, _b, _c, _d = 0.6210733, 0.3717021, 0.5478113, 0.4193127
 _AXES = np.array(
     [
@@ -48,17 +48,17 @@ def size(vector: Vector) -> Floats:
 
 
 def permanent(a: Vector, b: Vector) -> list[Floats]:
-    """a × b of absolute values with plus signs: a bound of its terms."""
+    """a × b with absolute values and plus signs: a bound of its terms."""
     return [a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]]
 
 
 def certain_sign(value: Floats, error: Floats) -> NDArray[np.int8]:
-    """+1 or -1 where the sign of a value is beyond its error, else 0."""
+    """The sign of a value, +1 or -1, where it exceeds its error, else 0."""
     return (value > error).astype(np.int8) - (value < -error).astype(np.int8)
 
 
 class Sides:
-    """Closed surfaces, and the side on which points lie.
+    """Closed surfaces, for queries of the side of a point.
 
     xyz: (3, V). faces: (n, 3) corners. group: (n,) the surface of each face.
     """
@@ -74,7 +74,7 @@ class Sides:
             np.minimum(np.minimum(a, b), c, out=low[:, block])
             np.maximum(np.maximum(a, b), c, out=high[:, block])
             self.reach[block] = reduce(np.maximum, (np.abs(row) for corner in corners for row in corner))
-        # Turned coordinates are rounded, and contact counts within the rounding of the coordinates.
+        # Contact is tested within the rounding of the coordinates, rotation included.
         margin = 16 * EPSILON * max(np.abs(low).max(), np.abs(high).max()) + 4 * ROUNDING * self.reach.max()
         self.tree = BoxTree(low - margin, high + margin, group, groups)
 
@@ -83,12 +83,12 @@ class Sides:
         return turned
 
     def corners(self, face: Ints) -> Floats:
-        """(3, 3, n) the corners of some faces, and the coordinates of each."""
+        """(3, 3, n) the corners of some faces: corner, coordinate, face."""
         return np.array([[x.take(corner.take(face)) for x in self.xyz] for corner in self.faces])
 
     def of(self, points: Floats, group: Ints) -> NDArray[np.int8]:
-        """(n,) the side of points (3, n) about one surface each: INSIDE where the winding number is not 0, else
-        OUTSIDE; UNDECIDED where a point is within rounding of a face."""
+        """(n,) the side of points (3, n) about one surface each: INSIDE for a nonzero winding number, else OUTSIDE;
+        UNDECIDED within rounding of a face."""
         turned = self._turned(points)
         undecided = np.zeros(len(group), bool)
         for point, face in self.tree.holding(turned, group):
@@ -103,7 +103,7 @@ class Sides:
         return np.where(undecided, UNDECIDED, winding != 0).astype(np.int8)
 
     def _near(self, points: Floats, face: Ints) -> Mask:
-        """Whether points are within the rounding of coordinates of a face each."""
+        """(n,) flags: the point is within the rounding of coordinates of its face."""
         d = self.corners(face) - points
         distance = np.full(len(face), np.inf)
         for a, b in ((0, 1), (1, 2), (2, 0)):
@@ -121,8 +121,8 @@ class Sides:
         return near
 
     def _crossed(self, points: Floats, face: Ints) -> tuple[NDArray[np.int64], Mask]:
-        """+1 where the ray from a point leaves through the face's outer side, -1 where it enters, 0 where it misses;
-        and where that stays open because the ray meets an edge."""
+        """(n,) crossings of rays with faces: +1 through the outer side, -1 through the inner side, 0 for none; flags
+        of the rays that are undecided because they meet an edge."""
         a, b, c = d = self.corners(face) - points
         sizes = np.abs(d)
         normals = cross(b, c), cross(c, a), cross(a, b)
@@ -145,7 +145,7 @@ class Sides:
 
 
 def _exactly_crossed(point: list[float], corners: list[list[float]]) -> int | None:
-    """The same for one ray in rational arithmetic; None where it meets an edge of the face or begins on it."""
+    """The crossing of one ray in rational arithmetic; None if it meets an edge of the face or begins on it."""
     from fractions import Fraction
 
     start, ray = [Fraction(x) for x in point], [Fraction(float(x)) for x in _AXES[2]]
@@ -154,7 +154,7 @@ def _exactly_crossed(point: list[float], corners: list[list[float]]) -> int | No
     if min(signs) < 0 < max(signs):
         return 0
     if not (min(signs) > 0 or max(signs) < 0):
-        # A face seen from its edge is met in no inner point; the line may miss it altogether.
+        # A ray in the plane of a face meets no inner point of it; it may miss the face altogether.
         return None
     height = _determinant(a, b, c)
     if height == 0:
