@@ -86,7 +86,7 @@ def test_every_warning_has_a_line() -> None:
 
 
 def test_every_line_has_a_warning() -> None:
-    table = text("docs/formats.md").partition("| code | what it means |")[2].partition("\n\n")[0]
+    table = text("docs/formats.md").partition("| code | meaning |")[2].partition("\n\n")[0]
     codes = [
         code for cell in re.findall(r"^\| (`[^|]*) \|", table, re.MULTILINE) for code in re.findall(r"`(\w+)`", cell)
     ]
