@@ -1,4 +1,4 @@
-"""Makes docs/gallery.md and its pictures: `python docs/make_gallery.py` runs the commands that the page shows."""
+"""Make docs/gallery.md and its pictures: `python docs/make_gallery.py` runs the commands of the page."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ ENTRIES = (
     Entry(
         "torus",
         "Gauss curvature on a torus",
-        "Positive outside, negative inside, and 0 on the two circles where a plane touches: the angle defects of all "
-        "vertices sum to {torus.K:.1f} = 2πχ.",
+        "K is positive outside, negative inside, and 0 on the two circles where a plane touches the torus. The angle "
+        "defects of all vertices sum to {torus.K:.1f} = 2πχ.",
         (
             "sample torus --size 6000 -o torus.ply",
             f"analyze torus.ply -o torus.png --color-by K_density --view 20,40 --size {SINGLE}",
@@ -51,8 +51,8 @@ ENTRIES = (
     Entry(
         "unduloid",
         "Mean curvature on an unduloid",
-        "The principal curvatures change from bulge to neck, their sum does not. One range for all three; grey is "
-        "where nothing is defined, on the boundary.",
+        "The principal curvatures change from bulge to neck; their sum is constant. All three panels have one range. "
+        "Grey is undefined, on the boundary.",
         (
             "sample unduloid --size 6000 -o unduloid.ply",
             "analyze unduloid.ply -o unduloid.png --color-by h_signed,kappa_1,kappa_2 --range=-2.5:2.5 "
@@ -62,8 +62,8 @@ ENTRIES = (
     Entry(
         "monkey_saddle",
         "Positive and negative curvature of a monkey saddle",
-        "K⁺ is the solid angle of the normal cone of the convex hull of a star, K⁻ what is left of it beyond K. A "
-        "saddle has K⁻ only; their sum counts the critical points that height functions have on average.",
+        "K⁺ is the solid angle of the normal cone of the convex hull of a star, and K⁻ = K⁺ − K. A saddle has K⁻ only. "
+        "Their sum is 2π times the average number of critical points of height functions.",
         (
             "sample monkey_saddle --size 3000 -o monkey.ply",
             "analyze monkey.ply -p core,K_plus,K_minus -o monkey.png --color-by K_minus,K_plus "
@@ -91,9 +91,9 @@ ENTRIES = (
     Entry(
         "areas",
         "Two areas of a vertex on bad triangles",
-        "An ellipsoid through random points, its triangles long and thin. A third of the faces (A) follows the "
-        "triangles; the cell of the intrinsic Voronoi diagram (A_voronoi) belongs to the points, whatever the "
-        "triangles between them are. Both sum to the area.",
+        "An ellipsoid through random points, its triangles long and thin. A third of the faces (A) depends on the "
+        "triangles. The cell of the intrinsic Voronoi diagram (A_voronoi) depends on the points only. Both sum to the "
+        "area.",
         (
             "sample irregular_ellipsoid --size 200 --set a=2 --set b=1 --set c=1 -o irregular.ply",
             "analyze irregular.ply -p core,A_voronoi -o areas.png --color-by A,A_voronoi --edges-on --range 0.03:0.2 "
@@ -103,7 +103,7 @@ ENTRIES = (
     Entry(
         "boy",
         "Mean curvature without an orientation",
-        "Boy's surface is one-sided: no sign of H is right, so h_signed is null and h, the size, is not.",
+        "Boy's surface is one-sided and H has no sign, so h_signed is null. Its size h is defined.",
         (
             "sample projective_plane --size 8000 -o boy.ply",
             f"analyze boy.ply -o boy.png --color-by h --view 30,35 --background black --size {SINGLE}",
@@ -112,7 +112,8 @@ ENTRIES = (
     Entry(
         "trefoil",
         "A knotted tube",
-        "κ₁ is that of the tube, κ₂ that of its bends: positive on their outer side, negative on the inner.",
+        "κ₁ is the curvature of the tube. κ₂ is the curvature of its bends, positive on the outer side and negative on "
+        "the inner.",
         (
             "sample trefoil_tube --size 12000 -o trefoil.ply",
             f"analyze trefoil.ply -o trefoil.png --color-by kappa_2 --view top --size {SINGLE}",
@@ -120,8 +121,8 @@ ENTRIES = (
     ),
     Entry(
         "book",
-        "Where more than two faces meet",
-        "The edges of a book's back are drawn apart from its boundary, and statuses are coloured as labels.",
+        "Edges of more than two faces",
+        "The edges of the spine of a book have another colour than its boundary. Statuses have the colours of labels.",
         (
             "sample book -o book.ply",
             f"analyze book.ply -o book.png --color-by status --view 35,25 --size {SINGLE}",
@@ -129,9 +130,9 @@ ENTRIES = (
     ),
     Entry(
         "noise",
-        "Outliers do not spoil the range",
-        "The colours end at the 98th percentile; the legend says how many values lie beyond. The line in the "
-        "histogram weighs each vertex by its area.",
+        "Outliers beyond the range",
+        "The colours end at the 98th percentile, and the legend has the number of values beyond. The line in the "
+        "histogram weights each vertex by its area.",
         (
             "sample irregular_torus --size 6000 -o noise.ply",
             f"analyze noise.ply -o noise.png --color-by K_density --view 20,40 --size {SMALL}",
@@ -163,7 +164,7 @@ def totals(folder: Path, entry: Entry) -> dict[str, float]:
 
 
 def section(entry: Entry, numbers: dict[str, float]) -> str:
-    """What the page says of an entry."""
+    """The section of the page about an entry."""
 
     def shown(found: re.Match[str]) -> str:
         return format(round(numbers[found[1]], 9) + 0.0, found[2])
@@ -178,9 +179,9 @@ def section(entry: Entry, numbers: dict[str, float]) -> str:
 _FENCE = '```sh title="Not run by the tests: docs/make_gallery.py runs it and keeps the pictures"'
 _HEAD = """# Gallery
 
-Each quantity on a shape where it says something. All pictures are made by the commands below them, which
-`python docs/make_gallery.py` runs (`pip install 'curvcli[pictures]'`). Colours are explained below every surface: the
-range, how it was chosen, how many values it cuts, and how many are undefined.
+Each quantity has a shape that shows its meaning. The commands below a picture make it; `python docs/make_gallery.py`
+runs them all (`pip install 'curvcli[pictures]'`). The legend below a surface has the range, its rule, the number of
+values beyond it, and the number of undefined values.
 """
 
 

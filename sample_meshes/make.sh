@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the meshes of this folder; run it here.
+# Make the meshes of this folder. Run it in this folder.
 set -eu
 curvcli sample icosphere --size 642 -o sphere.ply -o sphere.obj -o sphere.stl --force
 curvcli sample irregular_torus --size 800 -o torus.ply -o torus.obj -o torus.stl --force

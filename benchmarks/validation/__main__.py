@@ -20,51 +20,50 @@ ROOT = Path(__file__).parent.parent.parent
 
 INTRODUCTION = """# Validation
 
-How near the columns are to what is known: to the curvatures of smooth surfaces, to arithmetic in 50 digits, and to
-other programs. Made by
+This page compares the columns with the curvatures of smooth surfaces, with 50-digit arithmetic, and with other
+programs. It is the output of
 
 ```sh title="Not run by the tests: takes minutes"
 pip install '.[test,bench]' && python -m benchmarks.validation
 ```
 
-with curvcli {version}{others}. Identities are not on this page: they hold to rounding on every mesh, and every report
-shows it.
+with curvcli {version}{others}. Identities are not on this page, because every report has them: they hold to rounding on
+every mesh.
 """
 
 CONVERGENCE = """## Convergence
 
-Each surface in two triangulations of about {sizes} vertices: a regular one, and one through random points, uniform by
-area, joined by Delaunay's rule: triangles of every shape, the harshest of usual meshes. *largest* and *mean* are the
-largest and the root mean square error over the inner vertices of the finest mesh, as parts of the largest curvature of
-the surface (its square for K); *order* is the slope of the error over the mean edge length between all sizes: 2 means a
-quarter of the error for half the edge, 0 or less that there is no convergence, – that only rounding is left.
+Each surface in two triangulations of about {sizes} vertices: a regular one, and a Delaunay triangulation of random
+points, uniform by area. It has triangles of every shape, the hardest of the usual cases. *largest* and *mean* are the
+largest and the root mean square error over the inner vertices of the finest mesh, as fractions of the largest curvature
+of the surface (its square for K). *order* is the slope of the error over the mean edge length between all sizes: 2
+means a quarter of the error for half the edge, 0 or less no convergence, – rounding only.
 
-What to read from it:
+Results:
 
-* Where the triangulation is a smooth image of a grid (torus, catenoid, unduloid), everything that a single star says is
-  of second order. Next to a boundary estimates look to one side, and there they are of lower order.
-* The sphere and the ellipsoid made of an icosahedron have twelve vertices of degree 5. There a third of the star's area
-  is not the area that belongs to the vertex: the largest error of what divides by it stays, and the mean falls with the
-  share of those vertices. `--area mixed` or `voronoi` mends it for `K_density`.
-* On random triangulations what a single star says about a point does not converge, here or in any other program,
-  except `K_density` by Voronoi cells on the sphere: the star shrinks, but it does not become rounder. That is no
-  contradiction to exactness: `K`, `H_vec` and `A_vec` keep their sums, and sums over pieces of fixed size converge, as
-  `area` and `H_theta` do in the second tables; the Willmore energies, sums of squares, do not. `H_theta` sums inner
-  edges and `willmore` inner vertices: on the catenoid and the unduloid a strip along the rim is missing, which costs
-  them one order.
-* Estimates look further: two rings in the first tables, a fixed radius in the third (without the finest mesh, which
-  would add little there). At a fixed radius more and more
-  stars are summed, and all of them converge, until what the radius itself blurs is left. Within two rings there is
-  always the same number of faces, and only those that also fit or correct a normal converge.
-* On spheres the corrected measures are exact where the normals are.
+* On smooth images of a grid (torus, catenoid, unduloid) all values of single stars are of second order. Next to a
+  boundary estimates are one-sided and of lower order.
+* The sphere and the ellipsoid made of an icosahedron have twelve vertices of degree 5. There a third of the area of the
+  star is not the area of the vertex: the largest error of the densities stays, and the mean error falls with the share
+  of those vertices. `--area mixed` or `voronoi` corrects it for `K_density`.
+* On random triangulations values of single stars do not converge, here or in any other program, except `K_density` by
+  Voronoi cells on the sphere: the star shrinks, but does not become rounder. Exactness is unaffected: `K`, `H_vec` and
+  `A_vec` preserve their sums, and sums over pieces of fixed size converge, such as `area` and `H_theta` in the second
+  tables. The Willmore energies are sums of squares and do not converge. `H_theta` sums inner edges and `willmore` inner
+  vertices, so on the catenoid and the unduloid a strip along the rim is missing, and the order is one less.
+* Estimates use more than one star: two rings in the first tables, a fixed radius in the third (without the finest mesh,
+  which would add little there). At a fixed radius the number of stars grows, and all estimates converge down to the
+  blur of the radius. Two rings have a constant number of faces, and only the estimates with fitted or corrected normals
+  converge.
+* On spheres the corrected measures are exact if the normals are.
 """
 
 EXACT = """## Exact arithmetic
 
-`tests/exact` holds twelve small meshes (closed and open, regular and not, one-sided, one far from the origin) with
-every quantity in 50-digit arithmetic from the coordinates as read. *error* is the largest difference over all twelve as
-a part of the column's largest value, absolute for angles; a double has 16 digits. Left out are quotients by the mean
-curvature of the minimal surface, which is 0 there but for rounding.
+`tests/exact` has twelve small meshes (closed and open, regular and irregular, one-sided, one far from the origin) with
+every quantity in 50-digit arithmetic from the coordinates in the file. *error* is the largest difference over all
+twelve as a fraction of the largest value of the column, absolute for angles. A double has 16 digits. The table omits
+quotients by the mean curvature of the minimal surface, because it is 0 to rounding.
 
 | column of | column | error | digits | worst on |
 |---|---|---|---|---|
@@ -72,26 +71,27 @@ curvature of the minimal surface, which is 0 there but for rounding.
 
 EVOLVER = """## The Surface Evolver
 
-K. Brakke's program has the energies built in. Totals on eight bodies of genus 0, 1 and 2, regular, irregular and
-jittered; its mean curvature is the average, hence the factors.
-`tests/properties/test_evolver.py` compares every vertex as well.
+K. Brakke's program has the same energies. The table has totals on eight bodies of genus 0, 1 and 2, regular, irregular
+and jittered. Its mean curvature is the average, hence the factors. `tests/properties/test_evolver.py` compares every
+vertex as well.
 
-| its method | ours | largest relative difference |
+| method | curvcli | largest relative difference |
 |---|---|---|
 """
 
 LIBRARIES = """## libigl and VTK
 
-On an irregular ellipsoid (closed) and a jittered cap (open); differences as parts of the column's largest value.
+On an irregular ellipsoid (closed) and a jittered cap (open); differences as fractions of the largest value of the
+column.
 
-| theirs | ours | inside | boundary | why |
+| other program | curvcli | inside | boundary | reason |
 |---|---|---|---|---|
 """
 
 VTK = """
-VTK's mean curvature takes at each edge three times the dihedral angle times its length over the area of its two faces,
-and at each vertex half the mean of that over its edges. On a regular triangulation that is the mean curvature;
-elsewhere it weighs short and long edges alike, and the tables above show how far off it is.
+VTK's mean curvature is, at each edge, three times the dihedral angle times its length over the area of its two faces,
+and at each vertex half the mean of that over its edges. On a regular triangulation that is the mean curvature.
+Elsewhere short and long edges have the same weight, and the tables above have the errors.
 """
 
 

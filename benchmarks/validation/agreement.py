@@ -129,7 +129,7 @@ def _row(
         inner.append(float(error[body.surface.interior].max()))
         if body.surface.boundary.any():
             outer.append(float(error[body.surface.boundary].max()))
-    rim = "ours is null" if np.isnan(outer).any() else f"{max(outer):.1g}"
+    rim = "null in curvcli" if np.isnan(outer).any() else f"{max(outer):.1g}"
     return Row(theirs, ours, f"{max(inner):.1g}", rim, why)
 
 
@@ -179,7 +179,7 @@ def libraries() -> list[Row]:
                 cot,
                 column["H_vec"],
                 bodies,
-                "the same inside; on the boundary it is −∇area, not a curvature: it has the pull of the rim in it",
+                "the same inside; on the boundary it is −∇area, which includes the pull of the rim, not a curvature",
             ),
             _row(
                 "libigl `cotmatrix` · V",
@@ -195,7 +195,7 @@ def libraries() -> list[Row]:
                 {n: np.asarray(f[2]) + np.asarray(f[3]) for n, f in fitted.items()},
                 column["h_signed"],
                 bodies,
-                "another estimate: a quadric fitted to five rings; it is smooth, and keeps no sum",
+                "another estimate: a quadric fitted to five rings; it is smooth, and preserves no sum",
             ),
         ]
     try:
@@ -225,7 +225,7 @@ def libraries() -> list[Row]:
             {n: f["H"] for n, f in told.items()},
             {n: edge_mean(body) for n, body in bodies.items()},
             bodies,
-            "what it computes; it does not divide by the area of the vertex, and depends on the degree",
+            "the same formula; it depends on the degree, because it does not divide by the area of the vertex",
         ),
     ]
     return rows
