@@ -9,7 +9,7 @@ from curvcli.curvatures.catalogue import load_passes
 _INTRODUCTION = """\
 # Checks
 
-Made from the declarations in `curvcli/checks/` and `curvcli/requirements/`. ε = 2⁻⁵²; F and V count faces and
+Made from the declarations in `curvcli/checks/` and `curvcli/checks/requirements/`. ε = 2⁻⁵²; F and V count faces and
 vertices, N is 3F + V; the extent of a face is √(¾Σ|e|²) over its edges, half its perimeter or up to 1.23 times that. An
 *identity* is a theorem: it holds for every mesh that it applies to, up to rounding, and so it proves the arithmetic,
 not the mesh. A *requirement* is a property that a mesh has or has not.

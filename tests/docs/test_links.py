@@ -31,3 +31,16 @@ def test_every_page_is_linked_from_the_start() -> None:
     linked = {target for target, _ in LINK.findall(text("docs/index.md"))}
     pages = {str(page.relative_to(ROOT / "docs")) for page in (ROOT / "docs").glob("**/*.md")}
     assert pages - linked == {"index.md"}
+
+
+FILE = re.compile(r"\b(?:tests|benchmarks|curvcli|docs)/[\w./-]*\w")
+OUTSIDE = ("README.md", "SECURITY.md", "CONTRIBUTING.md", "benchmarks/README.md", *NAMES)
+
+# A test of the page that adds a quantity, written there.
+WRITTEN = {"tests/test_canham.py"}
+
+
+@pytest.mark.parametrize("name", sorted(set(OUTSIDE)))
+def test_files_that_pages_name_exist(name: str) -> None:
+    named = set(FILE.findall(re.sub(r"https?://\S+", "", text(name)))) - WRITTEN
+    assert [path for path in sorted(named) if not (ROOT / path).exists()] == []
