@@ -26,7 +26,7 @@ def test_the_names_promised() -> None:
         _ = curvcli.no_such_name
 
 
-def test_load() -> None:
+def test_load_gives_a_read_only_surface() -> None:
     surface = curvcli.load(exact_values.MESHES["cube"])
     assert isinstance(surface, curvcli.Surface)
     assert surface.points.shape == (8, 3)
@@ -81,7 +81,7 @@ def test_a_missing_file(tmp_path: Path) -> None:
         ({"orient": "outwards"}, "expected one of"),
     ],
 )
-def test_unknown_options(options: dict[str, Any], words: str) -> None:
+def test_an_unknown_option_is_refused(options: dict[str, Any], words: str) -> None:
     with pytest.raises(UsageError, match=words):
         curvcli.analyze(meshes.tetrahedron().surface(), **options)
 
@@ -144,7 +144,7 @@ def test_only_what_was_asked_for_is_shown() -> None:
     assert result.faces["normal"].shape == (4, 3)
 
 
-def test_defaults() -> None:
+def test_the_defaults_are_the_core_columns() -> None:
     result = curvcli.analyze(meshes.tetrahedron().surface())
     assert {"K", "h_signed", "kappa_1", "willmore"} <= result.vertices.keys()
     usual = {"mean": "sum", "area": "barycentric", "orient": "file", "weld": "none", "unit": None}
@@ -182,7 +182,7 @@ def test_the_report_is_plain_data() -> None:
         assert json.loads(json.dumps(report, allow_nan=False)) == report
 
 
-def test_write(tmp_path: Path) -> None:
+def test_write_refuses_a_file_that_exists(tmp_path: Path) -> None:
     result = curvcli.analyze(meshes.zoo("cap").surface(), "all")
     result.write(tmp_path / "a.json")
     assert json.loads((tmp_path / "a.json").read_text())["topology"] == result.report()["topology"]

@@ -57,7 +57,7 @@ def test_linear_maps_have_the_singular_values_of_their_matrix(seed: int) -> None
     assert statuses(f) == {"pass"}
 
 
-def test_one_triangle() -> None:
+def test_a_stretched_triangle_has_its_factors_as_singular_values() -> None:
     given = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]], np.int32))
     f = map_to(given, np.array([[7.0, 0, 0], [7, 3, 0], [7, 0, 0.5]]))
     assert f.sigma_1.tolist() == [3.0]
@@ -91,7 +91,7 @@ def test_stereographic_projection_is_conformal_in_the_limit() -> None:
     assert shares[2] / shares[1] == pytest.approx(0.25, rel=0.15)
 
 
-def test_identity() -> None:
+def test_the_identity_has_the_area_as_energy() -> None:
     given = zoo("torus")
     f = map_to(given, given.points)
     known = curvcli.analyze(given.surface(), "area_gradient,dirichlet")

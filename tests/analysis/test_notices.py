@@ -77,7 +77,7 @@ def test_one_of_each(tmp_path: Path, code: str) -> None:
     assert found[code]["message"].startswith(message)
 
 
-def test_several(tmp_path: Path) -> None:
+def test_faults_are_counted_with_examples(tmp_path: Path) -> None:
     found = warnings(tmp_path, TETRAHEDRON + 3 * LOOSE + 2 * b"f 1 2\n" + 2 * b"f 1 1 2\n", ())
     said = {code: (one["count"], one["message"], one["examples"]) for code, one in found.items()}
     assert said == {

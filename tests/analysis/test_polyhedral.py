@@ -32,7 +32,9 @@ seeds = st.integers(0, 2**32 - 1)
     [(simplex_boundary(3), 5, 10, 3), (cross_polytope(3), 16, 24, 4), (cell_600(), 600, 720, 5)],
     ids=["5-cell", "16-cell", "600-cell"],
 )
-def test_regular_polytopes(polytope: tuple[Floats, Simplices], cells: int, edges: int, around: int) -> None:
+def test_regular_polytopes_have_known_defects(
+    polytope: tuple[Floats, Simplices], cells: int, edges: int, around: int
+) -> None:
     manifold = PolyhedralManifold(*polytope)
     assert len(manifold.simplices) == cells
     assert len(manifold.hinges) == edges
@@ -52,7 +54,7 @@ def test_simplices_and_cross_polytopes_of_other_dimensions(n: int) -> None:
         assert manifold.check().status == "pass"
 
 
-def test_tesseract() -> None:
+def test_the_tesseract_bends_at_its_edges_alone() -> None:
     manifold = PolyhedralManifold(*tesseract_boundary())
     assert len(manifold.simplices) == 48
     differ = np.array([bin(a ^ b).count("1") for a, b in manifold.hinges])
@@ -173,7 +175,7 @@ def test_needles_keep_their_digits(thin: float) -> None:
 # ---------------------------------------------------------------------------- what is refused
 
 
-def test_refused() -> None:
+def test_what_is_no_manifold_is_refused() -> None:
     points = np.vstack([np.eye(3), -np.eye(3), np.ones((1, 3))])
     square = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1]])
     two_fans = [(0, 1, 2), (0, 2, 3), (0, 4, 5)]

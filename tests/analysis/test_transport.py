@@ -23,7 +23,7 @@ def random_manifold(seed: int) -> PolyhedralManifold:
 
 
 @given(seeds)
-def test_rotations(seed: int) -> None:
+def test_transport_is_a_rotation_between_frames(seed: int) -> None:
     manifold = random_manifold(seed)
     frames, (one, other) = manifold.frames, manifold.ridge_simplices.T
     np.testing.assert_allclose(frames @ frames.swapaxes(1, 2), np.tile(np.eye(3), (16, 1, 1)), atol=1e-14)

@@ -84,7 +84,7 @@ def test_a_killed_worker_costs_a_retry_and_the_summary_is_the_same(
         assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
 
 
-def test_workers_here(scans: Path, run: Run) -> None:
+def test_local_workers_give_the_same_tables(scans: Path, run: Run) -> None:
     ended = run("batch", "scans/**/*", "-o", "out", "--save", "csv", "--scheduler", "local:2", "-q")
     assert ended.code == 3
     assert run("batch", "scans/**/*", "-o", "one", "--save", "csv", "-q").code == 3
@@ -108,7 +108,7 @@ def test_other_versions_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
         dask._check_versions(Client(), "tcp://host:8786")
 
 
-def test_without_dask(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_dask_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(MissingExtraError, match=r"pip install 'curvcli\[dask\]'"), dask.connect("local:1", Limits()):
         pass

@@ -85,7 +85,7 @@ def test_names_that_are_no_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\0"])
-def test_lists(scans: Path, monkeypatch: pytest.MonkeyPatch, end: str) -> None:
+def test_a_list_of_files_keeps_order_without_duplicates(scans: Path, monkeypatch: pytest.MonkeyPatch, end: str) -> None:
     names = ["scans/z.ply", "scans/a.ply", "scans/missing.ply", "scans/z.ply"]
     content = "".join(name + end for name in names).encode()
     Path("list").write_bytes(content)
@@ -95,7 +95,7 @@ def test_lists(scans: Path, monkeypatch: pytest.MonkeyPatch, end: str) -> None:
 
 
 @pytest.mark.parametrize("pattern", ["nothing/*.ply", "scans/*.PLYX", "scans/missing.ply", "scans", "scans/deep/"])
-def test_no_match(scans: Path, pattern: str) -> None:
+def test_a_pattern_without_a_match_is_refused(scans: Path, pattern: str) -> None:
     with pytest.raises(NoMatchError, match="no file matches"):
         plan(["scans/*.ply", pattern], None, "out", [])
 

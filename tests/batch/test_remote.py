@@ -40,7 +40,7 @@ def analysed_alone(folder: str, scans: Path, names: list[str]) -> None:
         assert Path("alone.csv").read_bytes() == Path(folder, f"{name}.csv").read_bytes()
 
 
-def test_memory(scans: Path, run: Run) -> None:
+def test_meshes_in_memory_are_analysed(scans: Path, run: Run) -> None:
     memory = fsspec.filesystem("memory")
     memory.store.clear()
     for name in (*GOOD, "z.ply"):
@@ -57,7 +57,7 @@ def test_memory(scans: Path, run: Run) -> None:
     memory.store.clear()
 
 
-def test_http(scans: Path, run: Run, server: str) -> None:
+def test_meshes_on_a_server_are_analysed(scans: Path, run: Run, server: str) -> None:
     pytest.importorskip("aiohttp", reason="curvcli[remote] is not installed")
     Path("list").write_text("".join(f"{server}/scans/{name}\n" for name in (*GOOD, *BAD, "missing.ply")))
     ended = run("batch", "-o", "out", "--save", "csv", "--files-from", "list", "-j", 2)
@@ -74,7 +74,7 @@ def test_http(scans: Path, run: Run, server: str) -> None:
     assert f"{len(GOOD)} unchanged" in again.out
 
 
-def test_http_listing(scans: Path, run: Run, server: str) -> None:
+def test_a_pattern_matches_the_listing_of_a_server(scans: Path, run: Run, server: str) -> None:
     pytest.importorskip("aiohttp", reason="curvcli[remote] is not installed")
     assert run("batch", f"{server}/scans/a.*", "-o", "out", "--save", "csv").code == 0
     analysed_alone("out", scans, ["a.obj", "a.ply"])

@@ -45,16 +45,16 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     ],
 )
 @pytest.mark.parametrize("place", ["", "deep/", "d*p/er/"])
-def test_patterns(folder: Path, pattern: str, found: str, place: str) -> None:
+def test_a_pattern_ignores_the_case_of_suffixes(folder: Path, pattern: str, found: str, place: str) -> None:
     assert "".join(os.path.basename(name)[0] for name in expand(place + pattern)) == found
 
 
-def test_any_depth(folder: Path) -> None:
+def test_two_stars_match_at_any_depth(folder: Path) -> None:
     assert len(expand("**/*.stl")) == 6
     assert len(expand(f"{folder}/**/*.ply")) == 12
 
 
-def test_by_url(folder: Path) -> None:
+def test_patterns_apply_to_urls_too(folder: Path) -> None:
     pytest.importorskip("fsspec")
     assert [name[-1] for name in expand(f"file://{folder}/*.stl")] == ["l", "L"]
     assert len(expand(f"file://{folder}/**/*.obj")) == 6

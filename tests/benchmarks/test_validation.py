@@ -40,7 +40,7 @@ def test_what_is_revolved_here_is_the_sample(name: str, radius: float) -> None:
     assert np.hypot(*points[:, :2].T).max() == pytest.approx(radius)
 
 
-def test_orders() -> None:
+def test_an_order_of_convergence_is_recovered() -> None:
     course = convergence.Course()
     for edge in (0.4, 0.2, 0.1):
         course.add(edge, 3 * edge**2, 1e-13)

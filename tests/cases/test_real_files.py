@@ -70,7 +70,9 @@ def wanted(row: dict[str, str]) -> dict[str, int]:
 
 @needs_shared
 @pytest.mark.parametrize("name", ROWS)
-def test_file(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_real_file_ends_as_the_index_says(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
     assert SHARED is not None
     row = ROWS[name]
     table, report = tmp_path / "t.csv", tmp_path / "r.json"

@@ -23,7 +23,7 @@ pytestmark = needs_shared
         ("bed_100_cubes.stl", 51200, 51200, ""),
     ],
 )
-def test_outward(name: str, as_wound: float, outward: float, message: str) -> None:
+def test_outward_turns_every_body_to_the_right_side(name: str, as_wound: float, outward: float, message: str) -> None:
     ended = curvcli("check", case(name), "--require", "closed,outward")
     assert ended.code == bool(message)
     assert (f"outward fails: {message}" in ended.out) == bool(message)

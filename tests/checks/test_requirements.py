@@ -96,7 +96,7 @@ def test_every_requirement_has_a_case() -> None:
     assert {case[0].partition("=")[0] for case in CASES} | {"consistent-winding"} == kinds.keys()
 
 
-def test_winding() -> None:
+def test_reversed_faces_fail_consistent_winding() -> None:
     found = outcome(judged(meshes.shell(20)), "consistent-winding")
     assert found.status == "fail"
     assert "along which both faces run the same way (first: edge " in found.message

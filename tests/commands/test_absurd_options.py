@@ -79,11 +79,11 @@ def refused(place: Path, code: int, words: tuple[str, ...]) -> None:
 
 
 @pytest.mark.parametrize(("code", "words"), ABSURD, ids=lambda what: str(what)[:60].encode("unicode_escape").decode())
-def test_options(place: Path, code: int, words: tuple[str, ...]) -> None:
+def test_an_absurd_option_is_refused_in_one_line(place: Path, code: int, words: tuple[str, ...]) -> None:
     refused(place, code, words)
 
 
 @pytest.mark.parametrize("name", CONFIGURATIONS)
-def test_configurations(place: Path, name: str) -> None:
+def test_an_absurd_configuration_is_refused_in_one_line(place: Path, name: str) -> None:
     (place / "c.toml").write_text(CONFIGURATIONS[name])
     refused(place, 2, ("--config", "c.toml", *ANALYZE))

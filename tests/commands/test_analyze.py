@@ -30,7 +30,7 @@ def report(*arguments: str | Path) -> dict[str, Any]:
     return found
 
 
-def test_the_summary() -> None:
+def test_the_summary_has_checks_and_totals() -> None:
     ended = curvcli("analyze", DISK)
     wrote(ended)
     for word in (DISK, "gauss_bonnet", "force_balance", "pass", "area", "willmore", "kappa_g", "orient file"):
@@ -72,7 +72,7 @@ def test_json_of_several_meshes_is_a_list() -> None:
     assert [one["input"]["path"] for one in json.loads(ended.out)] == [CUBE, DISK]
 
 
-def test_get() -> None:
+def test_get_prints_the_value_of_the_report() -> None:
     found = report(CUBE)
     for path, value in (
         ("totals.area", found["totals"]["area"]),
@@ -96,7 +96,7 @@ def test_get_what_is_not_there(path: str, near: str) -> None:
     assert near in ended.complaint
 
 
-def test_topology() -> None:
+def test_topology_computes_only_degrees() -> None:
     found = report(MOBIUS, "-p", "topology")
     assert set(found["columns"]) == {"degree"}
     assert (found["topology"]["crosscaps"], found["topology"]["orientable"]) == (1, False)
@@ -154,7 +154,7 @@ def test_outputs_by_suffix(tmp_path: Path) -> None:
     assert len(trimesh.load_mesh(paths["m.ply"], process=False).faces) == surface.n_faces
 
 
-def test_other_tables(tmp_path: Path) -> None:
+def test_edges_and_faces_have_tables_of_their_own(tmp_path: Path) -> None:
     edges, faces = tmp_path / "e.csv", tmp_path / "f.csv"
     wrote(curvcli("analyze", CUBE, "-q", "--table", f"edges={edges}", "--table", f"faces={faces}"))
     table = rows(edges.read_text())
@@ -183,7 +183,7 @@ def test_the_same_command_gives_the_same_bytes(tmp_path: Path) -> None:
     assert one == two
 
 
-def test_conventions() -> None:
+def test_mean_and_area_change_what_they_should() -> None:
     summed, averaged = report(DISK), report(DISK, "--mean", "average")
     assert averaged["conventions"]["mean"] == "average"
     assert averaged["columns"]["h"]["max"] == summed["columns"]["h"]["max"] / 2
@@ -198,7 +198,7 @@ def test_conventions() -> None:
     assert "mm^2" in curvcli("analyze", DISK, "--unit", "mm").out
 
 
-def test_orient(tmp_path: Path) -> None:
+def test_orient_turns_the_volume_positive(tmp_path: Path) -> None:
     file = meshes.reversed_faces(meshes.tetrahedron()).write(tmp_path / "in.obj")
     kept, turned = report(file), report(file, "--orient", "outward")
     assert kept["totals"]["volume"] == -5.0
@@ -207,7 +207,7 @@ def test_orient(tmp_path: Path) -> None:
     assert "--orient outward" in hints["inside_out"]
 
 
-def test_weld(tmp_path: Path) -> None:
+def test_weld_joins_a_seam(tmp_path: Path) -> None:
     file = tmp_path / "seam.obj"
     file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 5 4 6\n")
     apart, welded = report(file), report(file, "--weld", "exact")
@@ -221,7 +221,7 @@ def test_weld(tmp_path: Path) -> None:
     assert curvcli("analyze", file, "--weld", "much").code == 2
 
 
-def test_precision(tmp_path: Path) -> None:
+def test_precision_shortens_the_numbers_of_tables(tmp_path: Path) -> None:
     ended = curvcli("analyze", CUBE, "-p", "K", "-o", "-", "--format", "csv", "--precision", "3")
     wrote(ended)
     assert {row["K"] for row in rows(ended.out)} == {"1.57"}
@@ -237,7 +237,7 @@ def colours(path: Path) -> np.ndarray[Any, np.dtype[Any]]:
     return np.stack([file.vertex_properties[channel] for channel in ("red", "green", "blue")], axis=1)
 
 
-def test_colours(tmp_path: Path) -> None:
+def test_options_of_colours_change_the_colours(tmp_path: Path) -> None:
     def coloured(*options: str) -> np.ndarray[Any, np.dtype[Any]]:
         path = tmp_path / "m.ply"
         wrote(curvcli("analyze", DISK, "-q", "--force", "-o", path, *options))
@@ -274,7 +274,7 @@ def test_strict_passes_where_checks_pass() -> None:
 
 
 @pytest.mark.parametrize("limit", [["--max-faces", "11"], ["--max-bytes", "20"]])
-def test_limits(limit: list[str]) -> None:
+def test_a_limit_that_is_exceeded_ends_with_3(limit: list[str]) -> None:
     ended = curvcli("analyze", CUBE, *limit)
     assert ended.code == 3
     assert limit[0] in ended.complaint

@@ -79,7 +79,7 @@ def test_1_something_fails() -> None:
         (["nope.obj", "--require", "genus=x"], "genus=N"),
     ],
 )
-def test_2_usage(arguments: list[str], words: str, tmp_path: Path) -> None:
+def test_2_the_command_line_is_wrong(arguments: list[str], words: str, tmp_path: Path) -> None:
     report = tmp_path / "check.json"
     ended = curvcli("check", *arguments, "-o", report)
     assert ended.code == 2
@@ -143,7 +143,7 @@ def test_70_a_defect_of_the_program(bad: Path) -> None:
     assert ended.err.count("\n") == 3
 
 
-def test_130_interrupted(tmp_path: Path) -> None:
+def test_130_the_run_is_interrupted(tmp_path: Path) -> None:
     program = """
 import os, signal
 from curvcli.loading import surfaces
@@ -167,7 +167,7 @@ def test_the_worst_of_several_decides(bad: Path, tmp_path: Path) -> None:
     assert curvcli("check", CUBE, MOBIUS, "-q").code == 1
 
 
-def test_a_stream(tmp_path: Path) -> None:
+def test_a_stream_has_no_place_in_sarif(tmp_path: Path) -> None:
     data = Path(CUBE).read_bytes()
     ended = curvcli("check", "-", "--input-format", "obj", "--format", "sarif", "--require", "genus=1", given=data)
     assert ended.code == 1
@@ -191,7 +191,7 @@ def test_equal_calls_give_equal_bytes() -> None:
         assert one == other
 
 
-def test_schema() -> None:
+def test_the_schema_is_printed() -> None:
     ended = curvcli("check", "--schema")
     assert ended.code == 0
     assert json.loads(ended.out)["$ref"] == "#/$defs/CheckReport"

@@ -34,7 +34,7 @@ def stretched(square: Path) -> Path:
     return path
 
 
-def test_report(within: Run, square: Path, stretched: Path) -> None:
+def test_the_report_has_source_image_and_totals(within: Run, square: Path, stretched: Path) -> None:
     code, out, err = within("compare", square, stretched, "--map", "--json")
     assert (code, err) == (0, "")
     report = json.loads(out)
@@ -70,7 +70,7 @@ def test_results_that_no_double_holds(within: Run, square: Path) -> None:
     assert {"image_area", "dirichlet"} <= set(warning["message"].partition(": ")[2].split(", "))
 
 
-def test_one_value(within: Run, square: Path, stretched: Path) -> None:
+def test_get_prints_one_value(within: Run, square: Path, stretched: Path) -> None:
     assert within("compare", square, stretched, "--map", "--get", "totals.area") == (0, "1.0\n", "")
     assert within("compare", square, stretched, "--map", "--get", "checks.nonconformality.status")[1] == "pass\n"
     code, out, err = within("compare", square, stretched, "--map", "--get", "totals.aera")
@@ -78,7 +78,7 @@ def test_one_value(within: Run, square: Path, stretched: Path) -> None:
     assert "nearest: area" in err
 
 
-def test_summary(within: Run, square: Path, stretched: Path) -> None:
+def test_the_summary_has_energies_and_checks(within: Run, square: Path, stretched: Path) -> None:
     code, out, err = within("compare", square, stretched, "--map")
     assert (code, err) == (0, "")
     for word in ("dirichlet", "5.125", "sigma_1", "nonconformality", "pass", "at vertex 4"):
@@ -86,7 +86,7 @@ def test_summary(within: Run, square: Path, stretched: Path) -> None:
     assert within("compare", square, stretched, "--map", "-q") == (0, "", "")
 
 
-def test_tables(within: Run, square: Path, stretched: Path, tmp_path: Path) -> None:
+def test_tables_of_vertices_and_faces_are_written(within: Run, square: Path, stretched: Path, tmp_path: Path) -> None:
     vertices, faces, report = tmp_path / "v.csv", tmp_path / "f.parquet", tmp_path / "r.json"
     written = within("compare", square, stretched, "--map", "-o", vertices, "--table", f"faces={faces}", "-o", report)
     assert written.code == 0
@@ -123,7 +123,7 @@ def test_options_of_the_other_kind_are_refused(within: Run, square: Path) -> Non
         assert ("without --map" if "--map" in arguments else "with --map") in err
 
 
-def test_refused(within: Run, square: Path, tmp_path: Path) -> None:
+def test_meshes_with_other_faces_are_refused(within: Run, square: Path, tmp_path: Path) -> None:
     other = tmp_path / "other.obj"
     other.write_text(square.read_text().replace("f 3 4 5", "f 4 5 3"))
     code, out, err = within("compare", square, other, "--map", "-o", tmp_path / "v.csv")

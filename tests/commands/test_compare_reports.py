@@ -115,7 +115,7 @@ def test_other_conventions_are_said(compare: Compare, folder: Path) -> None:
     assert even["equal"]
 
 
-def test_summary(compare: Compare, folder: Path) -> None:
+def test_the_summary_names_what_differs(compare: Compare, folder: Path) -> None:
     same = compare(folder, "torus.obj", "base.json")
     assert (same.code, same.err) == (0, "")
     assert "same: " in same.out
@@ -127,7 +127,7 @@ def test_summary(compare: Compare, folder: Path) -> None:
     assert compare(folder, "torus.obj", "moved.obj", "-q") == (1, "", "")
 
 
-def test_outputs(compare: Compare, folder: Path, tmp_path: Path) -> None:
+def test_differences_are_written_as_csv_and_json(compare: Compare, folder: Path, tmp_path: Path) -> None:
     written, report = tmp_path / "d.csv", tmp_path / "d.json"
     ended = compare(folder, "base.json", "moved.obj", "-q", "-o", str(written), "-o", str(report))
     assert (ended.code, ended.out, ended.err) == (1, "", "")
@@ -185,7 +185,7 @@ def test_damaged_and_foreign_files_are_refused(
         assert words in ended.complaint
 
 
-def test_usage(compare: Compare, folder: Path) -> None:
+def test_what_cannot_be_compared_has_its_exit_code(compare: Compare, folder: Path) -> None:
     assert "no values in common" in compare(folder, "base.json", "base.csv").complaint
     assert compare(folder, "base.json", "base.csv").code == 2
     assert compare(folder, "base.json", "torus.obj", "--only", "totals.aera").code == 2

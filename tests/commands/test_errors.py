@@ -32,7 +32,7 @@ from tests.helpers.cli.program import CUBE, DISK, MOBIUS, ROOT, command, curvcli
         (["sample", "toruss", "-o", "t.obj"], "torus"),
     ],
 )
-def test_usage(arguments: list[str], words: str, tmp_path: Path) -> None:
+def test_a_wrong_command_line_writes_nothing(arguments: list[str], words: str, tmp_path: Path) -> None:
     ended = curvcli(*arguments, folder=tmp_path)
     assert ended.code == 2
     assert words in ended.complaint
@@ -89,7 +89,7 @@ def test_an_option_without_its_value(arguments: list[str], tmp_path: Path) -> No
         ("mesh.xyz", "1 2 3\n", "suffix `.xyz` found"),
     ],
 )
-def test_input(name: str, content: str | None, words: str, tmp_path: Path) -> None:
+def test_a_bad_input_is_named_with_its_fault(name: str, content: str | None, words: str, tmp_path: Path) -> None:
     mesh = tmp_path / name
     if content is not None:
         mesh.write_text(content)
@@ -190,7 +190,7 @@ def test_a_working_folder_that_is_gone(tmp_path: Path) -> None:
     assert (code, words.startswith("curvcli: out: the working folder is gone")) == (3, True)
 
 
-def test_stems(tmp_path: Path) -> None:
+def test_a_stem_may_stand_amid_a_name(tmp_path: Path) -> None:
     wrote(curvcli("analyze", CUBE, "-q", "-o", tmp_path / "k-{stem}-k.csv"))
     assert [path.name for path in tmp_path.iterdir()] == ["k-cube-k.csv"]
 

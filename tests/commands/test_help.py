@@ -16,7 +16,7 @@ HEAVY = ("numpy", "scipy", "trimesh", "polars", "rich", "msgspec")
 
 
 @pytest.mark.parametrize("option", ["--version", "-V"])
-def test_version(option: str) -> None:
+def test_the_version_is_printed(option: str) -> None:
     assert curvcli(option) == (0, f"curvcli {package.__version__}\n", "")
 
 

@@ -15,7 +15,7 @@ from tests.helpers.columns import PUBLIC
 Run = Callable[..., Ended]
 
 
-def test_the_list() -> None:
+def test_the_list_has_every_public_quantity() -> None:
     ended = curvcli("passes")
     wrote(ended)
     words = ended.out.split()
@@ -33,7 +33,7 @@ def test_all_about_one(name: str) -> None:
         assert "".join(fact.split()) in text
 
 
-def test_as_data() -> None:
+def test_the_list_as_json_has_every_quantity() -> None:
     ended = curvcli("passes", "--json")
     wrote(ended)
     listed = {entry["name"]: entry for entry in json.loads(ended.out)}

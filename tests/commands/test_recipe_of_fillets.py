@@ -32,7 +32,9 @@ def verdict(part: Mesh, folder: Path) -> int:
 @pytest.mark.parametrize("segments", [3, 8])
 @pytest.mark.parametrize("profile", PROFILES)
 @pytest.mark.parametrize(("radius", "code"), [(0.5, 1), (1.5, 1), (1.9, 1), (2.2, 0), (3.0, 0)])
-def test_rings(profile: str, radius: float, code: int, segments: int, tmp_path: Path) -> None:
+def test_fillets_of_rings_are_judged_by_their_radius(
+    profile: str, radius: float, code: int, segments: int, tmp_path: Path
+) -> None:
     part = parts.ring(parts.filleted(parts.PROFILES[profile], radius, segments))
     assert verdict(part, tmp_path) == code
 
@@ -60,7 +62,7 @@ def test_a_sharp_cube_fails_at_any_size(size: float, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("radius", "code"), [(1.5, 1), (3.5, 0)])
-def test_balls(radius: float, code: int, tmp_path: Path) -> None:
+def test_balls_are_judged_by_their_radius(radius: float, code: int, tmp_path: Path) -> None:
     ball = meshes.of_sample("icosphere", size=642)
     ball = ball.moved(radius * ball.points / np.linalg.norm(ball.points, axis=1)[:, None])
     assert verdict(ball, tmp_path) == code

@@ -131,7 +131,7 @@ GARBAGE = {
 
 
 @pytest.mark.parametrize("name", GARBAGE)
-def test_garbage(within: Run, tmp_path: Path, name: str) -> None:
+def test_garbage_for_labels_is_refused(within: Run, tmp_path: Path, name: str) -> None:
     content, words = GARBAGE[name]
     Path(name).write_bytes(content)
     before = sorted(tmp_path.iterdir())
@@ -157,7 +157,7 @@ def test_a_pipe_is_not_waited_for(within: Run) -> None:
 
 
 @pytest.mark.parametrize("regions", ["groups", "objects", "materials", "part", "labels.dat", ""])
-def test_unknown_names(within: Run, regions: str) -> None:
+def test_an_unknown_property_is_refused(within: Run, regions: str) -> None:
     ended = within("analyze", "plain.obj", "--regions", regions)
     assert ended.code == 2
     assert f"--regions {regions}" in ended.complaint

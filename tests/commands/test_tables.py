@@ -112,7 +112,7 @@ def same(cell: object, value: object) -> bool:
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
 @pytest.mark.parametrize("name", NAMES)
-def test_every_table(name: str, suffix: str, within: Run, tmp_path: Path) -> None:
+def test_every_table_reads_back_in_full(name: str, suffix: str, within: Run, tmp_path: Path) -> None:
     mesh, labels = saved(name, tmp_path)
     kinds = ("edges", "faces", "loops", "regions", "components")
     tables = [part for kind in kinds for part in ("--table", f"{kind}={kind}{suffix}")]
@@ -181,7 +181,7 @@ def test_only_labels_that_some_face_has(within: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("precision", ["6", "15"])
-def test_fewer_digits(precision: str, within: Run, tmp_path: Path) -> None:
+def test_precision_rounds_the_cells_of_tables(precision: str, within: Run, tmp_path: Path) -> None:
     mesh, _ = saved("mobius", tmp_path)
     wrote(within("analyze", mesh, "-q", "--precision", precision, "--table", "edges=e.csv", "--table", "loops=l.csv"))
     result = curvcli.analyze(mesh, "all")

@@ -150,7 +150,7 @@ def test_what_was_stored(within: Run, tmp_path: Path) -> None:
             _spreadsheet(tmp_path / "d.csv")
 
 
-def test_batches(within: Run, tmp_path: Path) -> None:
+def test_batches_escape_names_of_files(within: Run, tmp_path: Path) -> None:
     (tmp_path / "in").mkdir()
     for number, text in enumerate(PAYLOADS):
         if "/" in text or "\x00" in text:
@@ -243,7 +243,7 @@ def harmless(text: str, what: object) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pseudo-terminals are POSIX's")
 @pytest.mark.parametrize("source", [s for s in SOURCES if s.name not in ("objects", "materials")], ids=lambda s: s.name)
-def test_terminals(source: Source, tmp_path: Path) -> None:
+def test_terminals_get_no_control_sequences(source: Source, tmp_path: Path) -> None:
     arguments = source.make(tmp_path)
     for line in (["analyze", *arguments], ["check", *arguments, "-v", "--require", "genus=7"]):
         code, said = on_terminal(tmp_path, *line)
@@ -278,7 +278,7 @@ def test_json_is_the_same_value() -> None:
 
 
 @pytest.mark.parametrize("text", [*PAYLOADS, "", "'", "''", "''=1", "'a", "a", "-", "+", "1", "-1.5e-3", "−1", "\n=1"])
-def test_cells(text: str) -> None:
+def test_cells_are_no_formulas(text: str) -> None:
     cell = escape_cell(text)
     assert not FORMULA.match(cell) or NUMBER.fullmatch(cell)
     if text.isprintable() or text in ("\t=1", "\n=1"):
@@ -316,7 +316,7 @@ def odd(K, A):
 '''
 
 
-def test_plug_ins(tmp_path: Path) -> None:
+def test_texts_of_plug_ins_are_escaped(tmp_path: Path) -> None:
     ply(tmp_path)
     there = install(tmp_path, PLUG_IN)
     outputs = [word for suffix in ("html", "md", "json", "csv", "png", "hist.png") for word in ("-o", f"k.{suffix}")]

@@ -31,14 +31,14 @@ def said(*arguments: str) -> str:
     return result.stdout
 
 
-def test_the_list() -> None:
+def test_the_list_has_every_topic_and_summary() -> None:
     listed = said("help")
     for name, topic in TOPICS.items():
         assert re.search(rf"^ +{name} +{re.escape(topic.summary)}$", listed, re.MULTILINE)
 
 
 @pytest.mark.parametrize("name", TOPICS)
-def test_every_topic(name: str) -> None:
+def test_a_topic_is_a_page_of_narrow_lines(name: str) -> None:
     text = TOPICS[name].text()
     assert text.startswith("# ")
     assert text.endswith("\n")

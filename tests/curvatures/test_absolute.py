@@ -144,7 +144,7 @@ def star_of(given: Mesh, vertex: int) -> Floats:
 
 
 @pytest.mark.parametrize("n", [7, 24, 25, 33, 100, 1000])
-def test_high_degrees(n: int) -> None:
+def test_apexes_of_high_degree_are_split_rightly(n: int) -> None:
     """A convex apex, one dent in it, and a rugged one."""
     _, plus, minus, _ = columns(bipyramid(circle(n), 0.7, -1.0))
     assert not minus.any()
@@ -216,7 +216,7 @@ def test_no_orientation_is_needed() -> None:
         assert np.isfinite(plus).any()
 
 
-def test_nulls() -> None:
+def test_undefined_parts_are_null() -> None:
     """On the boundary, at vertices that are not manifold, at those no face uses, and where corners coincide."""
     _, plus, _, _ = columns(meshes.grid())
     np.testing.assert_array_equal(np.isnan(plus), meshes.grid().surface().boundary)

@@ -48,14 +48,14 @@ def _cell(u: mp.matrix, w: mp.matrix) -> mp.mpf:
 
 
 @pytest.mark.parametrize("name", ZOO)
-def test_the_definition(name: str) -> None:
+def test_mixed_cells_follow_the_definition(name: str) -> None:
     found, wanted = cells(zoo(name)), slow_cells(zoo(name))
     np.testing.assert_array_equal(np.isnan(found), np.isnan(wanted))
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-13 * np.nanmax(wanted))
 
 
 @given(strategies.any_mesh())
-def test_random_surfaces(given: Mesh) -> None:
+def test_cells_of_random_surfaces_follow_the_definition(given: Mesh) -> None:
     found, wanted = cells(given), slow_cells(given)
     np.testing.assert_array_equal(np.isnan(found), np.isnan(wanted))
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-13 * np.nanmax(wanted))

@@ -50,7 +50,7 @@ def test_no_bias_on_regular_meshes(name: str, rings: int) -> None:
 
 
 @pytest.mark.parametrize("name", ["torus", "ellipsoid"])
-def test_convergence(name: str) -> None:
+def test_the_error_falls_with_the_size_of_faces(name: str) -> None:
     """Of about the first order: four times the vertices, about half the error."""
     coarse, fine = (error(found.vertices["K_corrected"], known.K) for known, found in _sizes(name))
     assert fine < coarse / 1.85
@@ -61,7 +61,7 @@ def _sizes(name: str) -> list[tuple[irregular.Known, Analysis]]:
 
 
 @pytest.mark.parametrize("name", SURFACES)
-def test_noise(name: str) -> None:
+def test_five_rings_tell_the_mean_curvature_under_noise(name: str) -> None:
     """At a thousandth of the size, where curvatures of one ring are noise, five rings still tell the mean curvature."""
     known = SURFACES[name]()
     size = np.linalg.norm(np.ptp(known.points, axis=0))

@@ -125,7 +125,7 @@ def test_a_pass_is_registered_once() -> None:
             return A, A
 
 
-def test_unknown_passes() -> None:
+def test_an_unknown_pass_is_no_attribute_and_no_key() -> None:
     with pytest.raises(AttributeError):
         _ = curvcli.passes.no_such_pass
     with pytest.raises(KeyError):
@@ -160,7 +160,7 @@ def test_column_names_are_unique_in_each_table() -> None:
 @pytest.mark.parametrize(
     ("exponent", "length", "unit"), [(0, "mm", "1"), (1, "mm", "mm"), (2, None, "length^2"), (-1, "mm", "mm^-1")]
 )
-def test_units(exponent: int, length: str | None, unit: str) -> None:
+def test_a_unit_is_the_power_of_the_length(exponent: int, length: str | None, unit: str) -> None:
     assert Quantity("x", length_exponent=exponent).unit(length) == unit
 
 

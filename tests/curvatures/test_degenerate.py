@@ -43,7 +43,7 @@ def nulls(result: Analysis, name: str) -> list[int]:
     return np.flatnonzero(np.isnan(values).reshape(len(values), -1).any(axis=1)).tolist()
 
 
-def test_collinear_corners() -> None:
+def test_collinear_corners_keep_K_and_lose_H() -> None:
     """Angles 0, 0, π: K stays, what the edges' mean curvature enters is null at the three corners."""
     result = curvcli.analyze(split([0.5, 1.0, 0.0]).surface(), "all")
     plain = curvcli.analyze(octahedron().surface(), "all")
@@ -162,7 +162,7 @@ def caps(height: float) -> Mesh:
 
 @pytest.mark.parametrize("aspect", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12])
 @pytest.mark.parametrize("kind", [needles, caps])
-def test_slivers(kind: object, aspect: float) -> None:
+def test_slivers_match_sums_in_60_digits(kind: object, aspect: float) -> None:
     given: Mesh = kind(aspect)  # type: ignore[operator]
     matches(given, ["K", "kappa_g", "A", "A_vec", "H_vec", "area_gradient"])
     matches(given.moved(np.ldexp(given.points, 40)), ["K", "kappa_g", "A", "A_vec", "H_vec", "area_gradient"])

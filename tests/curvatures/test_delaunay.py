@@ -57,7 +57,7 @@ def test_every_kind_of_surface(name: str) -> None:
 
 @settings(max_examples=30)
 @given(strategies.any_mesh())
-def test_random_surfaces(given: Mesh) -> None:
+def test_areas_of_random_surfaces_match_flips_one_by_one(given: Mesh) -> None:
     agrees_with_slow(given)
 
 

@@ -71,7 +71,7 @@ def test_cylinders_and_cones(slope: float) -> None:
         np.testing.assert_allclose(along(found, plain @ meshes.rotation().T)[inner], 1, atol=1e-13)
 
 
-def test_torus() -> None:
+def test_the_larger_curvature_goes_round_the_tube() -> None:
     """The larger curvature goes round the tube everywhere."""
     R, r, n, m = 2.0, 0.5, 60, 24
     u, w = np.meshgrid(TURN * np.arange(n) / n, TURN * np.arange(m) / m, indexing="ij")
@@ -98,7 +98,7 @@ def fan(heights: list[float], radius: list[float]) -> Mesh:
     return mesh(np.vstack([[0, 0, 0], rim]), np.stack([0 * ring, ring, np.roll(ring, -1)], axis=1))
 
 
-def test_saddle() -> None:
+def test_a_saddle_is_convex_along_y() -> None:
     """z = x² − y² seen from above is convex along y."""
     given = fan([1, 0, -1, 0, 1, 0, -1, 0], [1, 2**0.5] * 4)
     for shape, turn in ((given, np.eye(3)), (turned(given), meshes.rotation())):
@@ -107,7 +107,7 @@ def test_saddle() -> None:
         np.testing.assert_allclose(along(two[:1], turn[None, :, 0]), 1, atol=1e-14)
 
 
-def test_sign() -> None:
+def test_the_largest_component_is_positive() -> None:
     """The largest component is positive."""
     one, two = directions(meshes.torus())
     for found in (one, two):
@@ -115,14 +115,14 @@ def test_sign() -> None:
         assert (found[np.arange(len(found)), largest] > 0).all()
 
 
-def test_nearly_umbilic() -> None:
+def test_a_billionth_more_bend_decides() -> None:
     """A billionth more bent along x than along y."""
     low = -1 - 1e-9
     one, _ = directions(fan([low, -1, -1, -1, low, -1, -1, -1], [1.0] * 8))
     np.testing.assert_allclose(along(one[:1], np.array([[1.0, 0, 0]])), 1, atol=1e-6)
 
 
-def test_nulls() -> None:
+def test_directions_are_null_where_undefined() -> None:
     """At umbilics, in planes, without an orientation, and where an edge has no dihedral angle."""
     for heights in ([-1.0] * 5, [0.0] * 6):
         for given in (fan(heights, [1.0] * len(heights)), turned(fan(heights, [1.0] * len(heights)))):

@@ -19,7 +19,7 @@ from tests.helpers import meshes
 from tests.helpers.columns import PUBLIC
 
 
-def test_presets() -> None:
+def test_a_preset_names_its_quantities() -> None:
     assert resolve(["core"]) == list(CORE)
     assert resolve(["topology"]) == ["status", "degree"]
     assert set(resolve(["all"])) == {quantity.name for quantity in passes.quantities()}

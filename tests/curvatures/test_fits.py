@@ -69,7 +69,7 @@ def test_noise_is_averaged_out() -> None:
     assert three < 0.15
 
 
-def test_anisotropic_meshes() -> None:
+def test_long_faces_of_a_torus_keep_the_fit_close() -> None:
     sample = get("torus")(size=6000, aspect=8.0)
     assert error(sample, "K_fit", "K_density", rings=3) < 0.02
 

@@ -97,7 +97,7 @@ def test_every_scale_has_its_own_count() -> None:
 
 @needs_shared
 @pytest.mark.parametrize("rings", [1, 2, 3])
-def test_a_cortex(rings: int) -> None:
+def test_fits_on_a_cortex_agree_with_other_estimates(rings: int) -> None:
     """Where a fit is left it is of the size of the other estimates and goes with them, which it did not at all."""
     assert SHARED is not None
     path = SHARED / "meshes" / "fsaverage5_pial_lh.ply"

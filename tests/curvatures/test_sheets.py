@@ -148,7 +148,7 @@ def test_a_patch_is_as_it_is_by_itself_and_whichever_way_the_others_are_wound(
 
 
 @pytest.mark.parametrize("seed", range(25))
-def test_random_complexes(seed: int) -> None:
+def test_estimates_of_random_complexes_are_those_of_each_sheet(seed: int) -> None:
     """Triangles thrown together: with edges of many faces, several fans of one patch, and patches of one side."""
     rng = np.random.default_rng(seed)
     n = int(rng.integers(5, 14))

@@ -64,7 +64,7 @@ def test_random_polygons_by_their_crossings(seed: int) -> None:
 
 @pytest.mark.parametrize("k", [-3, -1, 0, 1, 2, 5])
 @pytest.mark.parametrize("scale", [1.0, 1e-160, 1e160])
-def test_torus_links(k: int, scale: float) -> None:
+def test_torus_links_have_known_linking_numbers(k: int, scale: float) -> None:
     one, other = torus_link(k, 90)
     found = links(curves(one * scale, other * scale))
     assert abs(found.number[0] - crossings(one, other)) < 1e-9

@@ -33,7 +33,7 @@ def test_there_are_exact_loops() -> None:
 
 
 @pytest.mark.parametrize("name", MESHES)
-def test_exact_values(name: str) -> None:
+def test_the_table_of_loops_has_the_exact_values(name: str) -> None:
     surface = load(MESHES[name])
     known = expected(name)["loops"]
     boundary, table = boundary_loops(surface), loop_table(surface)

@@ -13,7 +13,7 @@ TURN = 2 * np.pi
 
 
 @pytest.mark.parametrize("n", [3, 4, 5, 17, 1000])
-def test_regular_polygons(n: int) -> None:
+def test_regular_polygons_turn_by_equal_angles(n: int) -> None:
     curve = Curve(regular(n), closed=True)
     psi = TURN / n
     np.testing.assert_allclose(curve.turning, psi, atol=1e-14)

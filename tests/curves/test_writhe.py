@@ -16,7 +16,7 @@ from tests.curves.shapes import figure_eight, gauss_integral, helix, random_poly
 
 
 @pytest.mark.parametrize("closed", [True, False])
-def test_against_quadrature(closed: bool) -> None:
+def test_writhe_is_the_gauss_integral(closed: bool) -> None:
     points = trefoil(24)
     assert Curve(points, closed).writhe() == pytest.approx(gauss_integral(points, closed), rel=1e-12)
 

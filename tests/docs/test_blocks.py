@@ -111,7 +111,9 @@ def stage(tmp_path_factory: pytest.TempPathFactory, programs: Path) -> Path:
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if runnable(name)])
-def test_blocks_run(name: str, stage: Path, programs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_blocks_of_a_page_run_as_written(
+    name: str, stage: Path, programs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """In the order of the page, beside the sample meshes; shells and Python share a folder."""
     folder = tmp_path / "page"
     shutil.copytree(stage, folder)

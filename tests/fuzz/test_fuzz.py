@@ -37,19 +37,19 @@ def held(cases: st.SearchStrategy[Case], folder: Path, many: int, run: Any = in_
 
 
 @pytest.mark.parametrize("part", range(2))
-def test_whole_files(tmp_path: Path, part: int) -> None:
+def test_whole_files_are_read(tmp_path: Path, part: int) -> None:
     counts = held(sound().filter(lambda case: len(case.data) % 2 == part), tmp_path, 250)
     assert counts["read"] > 60
 
 
 @pytest.mark.parametrize(("kind", "read"), [("obj", 40), ("ply", 15), ("stl", 30), ("strips", 5)])
-def test_damaged_files(tmp_path: Path, kind: str, read: int) -> None:
+def test_damaged_files_are_read_or_refused(tmp_path: Path, kind: str, read: int) -> None:
     counts = held(mutated(kind), tmp_path, 350)
     assert counts["read"] >= read
     assert counts["refused"] > 100
 
 
-def test_noise(tmp_path: Path) -> None:
+def test_noise_is_read_or_refused(tmp_path: Path) -> None:
     counts = held(noise(), tmp_path, 250)
     assert counts["refused"] > 150
 
@@ -66,7 +66,7 @@ def test_what_once_broke_the_contract(tmp_path: Path, path: Path) -> None:
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory of a process is told differently elsewhere")
 @pytest.mark.parametrize("what", ["whole", "damaged"])
-def test_real_processes(tmp_path: Path, what: str) -> None:
+def test_real_processes_keep_the_contract(tmp_path: Path, what: str) -> None:
     kinds = st.one_of(*(mutated(kind) for kind in ("obj", "ply", "stl", "strips")), noise())
     counts = held(sound() if what == "whole" else kinds, tmp_path, 15, real)
     assert counts["read" if what == "whole" else "refused"] > 3

@@ -22,7 +22,7 @@ def test_gzip_is_recognised_by_content(tmp_path: Path) -> None:
     assert read_mesh_file(tmp_path / "plain.obj.gz").polygons == 2
 
 
-def test_damaged_gzip(tmp_path: Path) -> None:
+def test_a_damaged_gzip_is_refused(tmp_path: Path) -> None:
     packed = gzip.compress(OBJ)
     path = tmp_path / "mesh.obj.gz"
     for data in (packed[:-1], packed[:20], packed[:12] + b"\xff\xff\xff" + packed[15:], packed + b"garbage"):
@@ -73,7 +73,7 @@ def test_pipes_devices_and_sockets_are_not_waited_for(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["ein Würfel.obj", "a\nb.obj", "-.obj", "\x1b[31m.obj", "a\u2028b.obj", " .obj"])
-def test_odd_names(tmp_path: Path, name: str) -> None:
+def test_a_file_of_an_odd_name_is_read(tmp_path: Path, name: str) -> None:
     path = tmp_path / name
     path.write_bytes(OBJ)
     mesh = read_mesh_file(path)
@@ -106,7 +106,7 @@ def test_names_that_are_not_utf_8(tmp_path: Path) -> None:
         assert mesh.path.isprintable()
 
 
-def test_limits(tmp_path: Path) -> None:
+def test_limits_count_bytes_and_faces(tmp_path: Path) -> None:
     path = tmp_path / "mesh.obj"
     path.write_bytes(OBJ)
     assert read_mesh_file(path, max_bytes=len(OBJ), max_faces=2).polygons == 2

@@ -122,7 +122,7 @@ class TestTraps:
         (notice,) = mesh.notices
         assert (notice.code, notice.count, notice.examples) == ("rational_weights", 1, (2,))
 
-    def test_uniform_colours(self) -> None:
+    def test_colours_are_properties_of_vertices(self) -> None:
         mesh = parse_obj(b"v 0 0 0 1 2 3\nv 1 0 0 4 5 6\nv 0 1 0 7 8 9\nf 1 2 3\n")
         assert {name: values.tolist() for name, values in mesh.vertex_properties.items()} == {
             "red": [1, 4, 7],
@@ -130,7 +130,7 @@ class TestTraps:
             "blue": [3, 6, 9],
         }
 
-    def test_polylines(self) -> None:
+    def test_records_of_lines_are_polylines(self) -> None:
         mesh = parse_obj(SQUARE + b"l 1 2\nl 3/1 -1 1\nf 1 2 3\n")
         assert [line.tolist() for line in mesh.polylines] == [[0, 1], [2, 3, 0]]
 

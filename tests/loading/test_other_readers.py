@@ -86,7 +86,7 @@ def test_every_variant_has_a_witness() -> None:
 @pytest.mark.parametrize("reader", READERS)
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("variant", VARIANTS)
-def test_variants(tmp_path: Path, variant: str, shape: str, reader: str) -> None:
+def test_other_readers_find_the_same_in_each_variant(tmp_path: Path, variant: str, shape: str, reader: str) -> None:
     points, polygons = SHAPES[shape]
     path = tmp_path / variant
     path.write_bytes(VARIANTS[variant](points, polygons))
@@ -109,7 +109,7 @@ def real() -> Iterator[Any]:
 @needs_shared
 @pytest.mark.parametrize("reader", READERS)
 @pytest.mark.parametrize("path", list(real()))
-def test_real_files(path: Path, reader: str) -> None:
+def test_other_readers_find_the_same_in_real_files(path: Path, reader: str) -> None:
     found = ours(path)
     if reason := unable(reader, path.name):
         pytest.skip(f"{reader} {reason}")

@@ -247,7 +247,7 @@ class TestRefused:
             (("element vertex 4\n", "element vertex\n"), "line 3: `element vertex` found, a PLY header statement"),
         ],
     )
-    def test_headers(self, change: tuple[str, str], message: str) -> None:
+    def test_a_wrong_header_is_refused(self, change: tuple[str, str], message: str) -> None:
         assert refused(ascii_ply("3 0 1 2\n").decode().replace(*change, 1).encode()).startswith(message)
 
     def test_nothing_to_compute(self) -> None:

@@ -35,7 +35,7 @@ def test_points_with_normals_are_no_surface(normals: str) -> None:
     assert [line.tolist() for line in curve.polylines] == [[0, 1, 2]]
 
 
-def test_welding(tmp_path: Path) -> None:
+def test_only_stl_is_welded_by_default(tmp_path: Path) -> None:
     stl = {w: read_mesh_file(io.BytesIO(STL), weld=w) for w in ("auto", "exact", "none", 0.9)}
     assert [stl[w].xyz.shape[1] for w in stl] == [4, 4, 12, 4]
     assert stl["exact"].welded_to is None

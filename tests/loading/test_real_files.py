@@ -39,7 +39,7 @@ def read(path: Path) -> tuple[MeshFile | None, str]:
 
 
 @pytest.mark.parametrize("row", [pytest.param(row, id=row["file"]) for row in rows()])
-def test_counts(row: dict[str, str]) -> None:
+def test_vertices_and_faces_are_as_counted(row: dict[str, str]) -> None:
     assert SHARED is not None
     path = SHARED / "meshes" / row["file"]
     mesh, message = read(path)

@@ -18,7 +18,7 @@ from tests.loading.test_stl import TETRAHEDRON
 
 @pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "OBJ", "Ply", "STL"])
 @pytest.mark.parametrize("packed", ["", ".gz", ".GZ"])
-def test_promised_suffixes(tmp_path: Path, suffix: str, packed: str) -> None:
+def test_every_promised_suffix_is_read(tmp_path: Path, suffix: str, packed: str) -> None:
     data = CONTENT[suffix.lower()]
     data = gzip.compress(data) if packed else data
     path = tmp_path / f"mesh.{suffix}{packed}"
@@ -31,7 +31,7 @@ def test_promised_suffixes(tmp_path: Path, suffix: str, packed: str) -> None:
 
 @pytest.mark.parametrize("kind", ["obj", "ply", "stl"])
 @pytest.mark.parametrize("packed", [False, True])
-def test_streams(kind: str, packed: bool) -> None:
+def test_streams_are_recognised_by_content(kind: str, packed: bool) -> None:
     data = gzip.compress(CONTENT[kind]) if packed else CONTENT[kind]
     for wanted in (kind, kind.upper(), None):
         mesh = read_mesh_file(io.BytesIO(data), input_format=wanted)
@@ -82,7 +82,7 @@ def test_what_was_brought_instead_of_the_file(tmp_path: Path, told: str, data: b
     assert refused(path).startswith(f"{path}: {message}a mesh expected; ")
 
 
-def test_utf_16(tmp_path: Path) -> None:
+def test_text_in_utf_16_is_refused(tmp_path: Path) -> None:
     """Also without a byte-order mark: with zeros for blanks, `10` would be read as two numbers."""
     for kind in ("obj", "ply", "stl"):
         path = tmp_path / f"mesh.{kind}"

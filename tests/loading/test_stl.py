@@ -177,7 +177,9 @@ class TestRefused:
         ],
     )
     @pytest.mark.parametrize("small", [-1, 1 << 16])
-    def test_vertices(self, old: bytes, new: bytes, message: str, small: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_a_wrong_vertex_is_refused(
+        self, old: bytes, new: bytes, message: str, small: int, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
         monkeypatch.setattr(text, "SMALL", small)
         assert refused(ascii_stl(TETRAHEDRON).replace(old, new, 1)) == message
 
@@ -193,7 +195,7 @@ class TestRefused:
 
 
 @pytest.mark.parametrize(("wrong", "place"), [("vertdx", "line 4"), ("vertexes", "line 4"), ("facets", "line 2")])
-def test_misspelt_keywords(wrong: str, place: str) -> None:
+def test_a_misspelt_keyword_is_refused_with_its_line(wrong: str, place: str) -> None:
     data = ascii_stl(TETRAHEDRON).decode()
     with pytest.raises(InputError, match=f"`{wrong}` found, `{wrong[:3]}") as error:
         parsed("stl", re.sub(wrong[:3] + r"\w+", wrong, data, count=1).encode())

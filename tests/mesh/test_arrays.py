@@ -40,7 +40,7 @@ def test_types_of_faces(kind: str) -> None:
     same((POINTS, FACES.astype(kind)))
 
 
-def test_layouts() -> None:
+def test_arrays_of_every_layout_are_the_same_mesh() -> None:
     """Columns apart, backwards, with gaps, out of a table of records, and out of something that is larger."""
     apart, faces = np.asfortranarray(POINTS, float), np.asfortranarray(FACES)
     gaps = np.repeat(np.repeat(POINTS, 2, axis=0), 3, axis=1)[::2, ::3]
@@ -128,7 +128,7 @@ def test_what_a_surface_has_worked_out_is_read_only() -> None:
 # ---------------------------------------------------------------------------- between processes
 
 
-def test_results_travel() -> None:
+def test_results_can_be_pickled_and_copied() -> None:
     """Surfaces, results and passes go to another process and back, and may be copied."""
     result = curvcli.analyze(
         meshes.zoo("two_bodies").surface(), "all", regions=meshes.zoo("two_bodies").faces[:, 0] % 2

@@ -44,7 +44,7 @@ def by_hand(surface: Surface, scale: Scale) -> Mask:
 
 @pytest.mark.parametrize("scale", [rings(1), rings(2), rings(4), Scale("edges", 1.7), Scale("length", 1.1)], ids=str)
 @pytest.mark.parametrize("name", ["torus", "grid", "cap", "book", "pinched", "two_bodies", "soup", "with_flat_face"])
-def test_neighbourhoods(name: str, scale: Scale) -> None:
+def test_neighbourhoods_match_a_walk_by_hand(name: str, scale: Scale) -> None:
     surface = meshes.zoo(name).surface()
     np.testing.assert_array_equal(dense(surface, scale), by_hand(surface, scale))
 
@@ -77,7 +77,7 @@ def test_sums_are_sums() -> None:
     np.testing.assert_allclose(sums(surface, rings(2), data), dense(surface, rings(2)) @ data, rtol=1e-12, atol=1e-12)
 
 
-def test_radii() -> None:
+def test_radii_count_in_mean_edge_lengths() -> None:
     surface = meshes.torus().surface()
     edges = surface.edges
     lengths = np.linalg.norm(surface.points[edges.a] - surface.points[edges.b], axis=1)
@@ -96,7 +96,7 @@ def test_radii() -> None:
         (".1", Scale("length", 0.1)),
     ],
 )
-def test_radius_texts(text: str, scale: Scale) -> None:
+def test_a_radius_is_a_length_or_a_number_of_edges(text: str, scale: Scale) -> None:
     assert parse_radius(text) == scale
 
 
@@ -110,13 +110,13 @@ def test_names_of_scales_read_back() -> None:
 
 
 @pytest.mark.parametrize("text", ["", "e", "-1", "0", "nan", "inf", "1x", "0e"])
-def test_no_radius(text: str) -> None:
+def test_what_is_no_length_is_refused(text: str) -> None:
     with pytest.raises(UsageError, match="expected a positive length"):
         parse_radius(text)
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "1.5", "101", "x", ""])
-def test_no_rings(text: str) -> None:
+def test_what_is_no_number_of_rings_is_refused(text: str) -> None:
     with pytest.raises(UsageError, match="expected a whole number from 1 to 100"):
         parse_scales(text, None)
 

@@ -44,7 +44,7 @@ def test_every_identity_is_run_on_every_region() -> None:
 
 @settings(max_examples=80)
 @drawn(strategies.any_mesh(), st.integers(1, 6), st.integers(0, 2**32 - 1), st.booleans())
-def test_any_labelling(given: Mesh, many: int, seed: int, some_without: bool) -> None:
+def test_any_labelling_keeps_every_identity(given: Mesh, many: int, seed: int, some_without: bool) -> None:
     labels = np.random.default_rng(seed).integers(-1 if some_without else 0, many, len(given.faces))
     labels[0] = 0
     result = analyse(given, labels)

@@ -127,7 +127,7 @@ def strip(width: float) -> Mesh:
         lambda: cut(BODIES["sphere"](), 0.01),
     ],
 )
-def test_no_seam(make: object) -> None:
+def test_a_mesh_without_a_near_seam_has_no_hint(make: object) -> None:
     assert callable(make)
     assert near_seam(make().surface()) is None
 

@@ -41,7 +41,7 @@ def vectors(kind: str, count: int) -> NDArray[np.float64]:
     "kind",
     ["any", "integers", "coplanar to rounding", "parallel", "far apart in size", "near the end of the range"],
 )
-def test_signs(kind: str) -> None:
+def test_signs_are_those_of_exact_determinants(kind: str) -> None:
     rows = vectors(kind, 300)
     found = exact_sides(*rows.transpose(1, 2, 0))
     assert (found != 0).all()

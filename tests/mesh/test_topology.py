@@ -102,7 +102,7 @@ def test_patches_and_their_orientation(given: Mesh) -> None:
 
 @settings(max_examples=150)
 @given(strategies.any_mesh())
-def test_status(given: Mesh) -> None:
+def test_the_status_of_vertices_follows_the_definition(given: Mesh) -> None:
     found = curvcli.analyze(given.surface(), "status")
     brute = Complex(given)
     flat = set(given.faces[found.columns["degenerate_face"]].ravel().tolist())

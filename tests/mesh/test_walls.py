@@ -73,7 +73,7 @@ def both_sides(given: Mesh) -> Mesh:
         lambda: meshes.tetrahedron().with_faces(np.vstack([meshes.tetrahedron().faces, [[0, 1, 2]]])),
     ],
 )
-def test_no_wall(make: object) -> None:
+def test_meshes_without_walls_have_no_facing_pairs(make: object) -> None:
     assert callable(make)
     surface = make().surface()
     assert not len(facing_pairs(surface))

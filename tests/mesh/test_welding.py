@@ -50,7 +50,7 @@ def test_colliding_hashes_do_no_harm(xyz: np.ndarray, useless: int) -> None:
 
 
 @pytest.mark.parametrize("threads", ["1", "2"])
-def test_many_positions(threads: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_many_positions_weld_alike_on_any_number_of_threads(threads: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
     grid = np.stack(np.meshgrid(*[np.arange(40.0) * 1e-9] * 3)).reshape(3, -1)
     order = np.random.default_rng(1).integers(0, grid.shape[1], 300_000)

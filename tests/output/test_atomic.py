@@ -160,7 +160,7 @@ def test_two_runs_on_one_output(file: Path) -> None:
     assert os.listdir(file.parent) == ["out.csv"]
 
 
-def test_permissions(file: Path) -> None:
+def test_permissions_follow_the_umask_and_are_kept(file: Path) -> None:
     before = os.umask(0o027)
     try:
         write(file)

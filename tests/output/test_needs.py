@@ -24,7 +24,9 @@ PASSES = ("core", "K_density", "h_signed", "kappa_1", "K_fit,willmore_fit", "top
 
 @pytest.mark.parametrize("passes", PASSES)
 @pytest.mark.parametrize("outputs", OUTPUTS, ids=" ".join)
-def test_one_evaluation(outputs: list[str], passes: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_outputs_need_one_evaluation(
+    outputs: list[str], passes: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Only the bounds on the rounding of colours are evaluated apart, with a noise of their own."""
     calls: list[set[str]] = []
     evaluate = result.evaluate

@@ -55,13 +55,13 @@ def bits(values: object) -> list[bytes]:
     return [struct.pack("<d", value) for value in values]  # type: ignore[attr-defined]
 
 
-def test_csv_text() -> None:
+def test_csv_has_the_known_text() -> None:
     assert text(COLUMNS) == (
         "vertex,K,closed,welded_to,status\n0,0.1,true,7,boundary\n1,,false,,\n2,-0.0,true,9,interior\n"
     )
 
 
-def test_tsv_text() -> None:
+def test_tsv_has_the_known_text() -> None:
     assert text({"a": np.array([1, 2]), "b": np.array([np.nan, 2.5])}, ".tsv") == "a\tb\n1\t\n2\t2.5\n"
 
 
@@ -100,7 +100,7 @@ def test_shortest_is_no_longer_than_python_text() -> None:
         (np.nan, 3, '""'),
     ],
 )
-def test_precision(value: float, digits: str | int, cell: str) -> None:
+def test_precision_is_digits_of_a_cell(value: float, digits: str | int, cell: str) -> None:
     assert text({"a": np.array([value])}, precision=digits).splitlines()[1:] == [cell.strip('"')]
 
 
@@ -119,7 +119,7 @@ def test_precision_is_pythons_rounding(values: np.ndarray, digits: int) -> None:
         assert cell == "" if np.isnan(value) else float(cell) == (rounded if np.isfinite(rounded) else value)
 
 
-def test_parquet(tmp_path: Path) -> None:
+def test_parquet_reads_back_with_types(tmp_path: Path) -> None:
     with open(tmp_path / "t.parquet", "wb") as stream:
         write_table(stream, COLUMNS, ".parquet")
     frame = pl.read_parquet(tmp_path / "t.parquet")
@@ -159,7 +159,7 @@ def test_equal_input_gives_equal_bytes(suffix: str) -> None:
     assert tables[0].getvalue() == tables[1].getvalue()
 
 
-def test_no_rows() -> None:
+def test_a_table_without_rows_has_its_header() -> None:
     assert text({"a": np.zeros(0), "s": Labels(np.zeros(0, np.int32), ())}) == "a,s\n"
 
 
@@ -190,7 +190,7 @@ def test_names_are_quoted_and_utf8() -> None:
     assert rows == [["region"], ['a,"b"'], ["Flügel\n2"], ["a"]]
 
 
-def test_repeated_names() -> None:
+def test_labels_may_share_a_name() -> None:
     assert text({"region": Labels(np.array([0, 1, -1], np.int32), ("a", "a")), "n": np.arange(3)}) == (
         "region,n\na,0\na,1\n,2\n"
     )

@@ -18,7 +18,9 @@ SCARCE = b"curvcli: out of memory; use a machine with more memory or a smaller m
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds the address space of a process")
 @pytest.mark.parametrize("suffix", ["obj", "ply", "stl"])
 @pytest.mark.parametrize("megabytes", [int(size) for size in np.geomspace(200, 3000, 7)])
-def test_a_limit(suffix: str, megabytes: int, middling: dict[str, Path], tmp_path: Path) -> None:
+def test_a_limit_on_memory_ends_in_one_line(
+    suffix: str, megabytes: int, middling: dict[str, Path], tmp_path: Path
+) -> None:
     # No two formats meet the same limit, so that more limits are met.
     kilobytes = int(megabytes * {"obj": 1000, "ply": 1080, "stl": 1160}[suffix])
     run = command("analyze", middling[suffix], "-q", "-o", tmp_path / "k.csv", "-o", tmp_path / "k.ply")

@@ -66,7 +66,7 @@ def test_closed_streams_do_not_become_outputs(small: Path, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("what", [["-v"], ["--json"], ["-o", "-", "--format", "csv"]])
-def test_head(what: list[str], small: Path) -> None:
+def test_a_reader_that_leaves_after_one_line_is_no_error(what: list[str], small: Path) -> None:
     """A reader that leaves after the first line."""
     process = start("analyze", small, *what, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     head = subprocess.run(["head", "-1"], stdin=process.stdout, capture_output=True, timeout=120)

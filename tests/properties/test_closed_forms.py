@@ -151,7 +151,7 @@ def test_apex_of_a_cone(height: float) -> None:
     assert min(orders(errors, sides)) >= 1.8
 
 
-def test_cylinder() -> None:
+def test_a_cylinder_has_its_mean_curvature_for_any_n() -> None:
     """n sides: ΣH_theta = 2π·height whatever n, and **H** = −h **A** with the same h everywhere."""
     result = sample("cylinder", size=800, radius=0.5, height=3.0)
     points = result.surface.points
@@ -164,7 +164,7 @@ def test_cylinder() -> None:
     assert report["normals"]["angle_max"] < 1e-13
 
 
-def test_the_lantern() -> None:
+def test_the_lantern_keeps_its_identities() -> None:
     """Its area grows beyond that of the cylinder with the folding, while K = 0 and every identity holds."""
     areas = []
     for folding in (0.1, 1.0, 4.0, 16.0):
@@ -200,7 +200,7 @@ def test_constant_mean_curvature(name: str, mean: float) -> None:
 
 
 @pytest.mark.parametrize("name", ["catenoid", "helicoid", "enneper", "scherk"])
-def test_minimal_surfaces(name: str) -> None:
+def test_minimal_surfaces_bend_less_with_finer_faces(name: str) -> None:
     largest = [bending(name, size)["H_vec_max"] for size in SIZES]
     assert largest[2] < 0.3 * largest[1] < 0.3**2 * largest[0]
     energy = [total(sample(name, size=size), "willmore") for size in SIZES]

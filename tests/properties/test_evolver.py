@@ -146,7 +146,7 @@ def theirs(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Answer]:
 
 @pytest.mark.parametrize("method", TOTALS)
 @pytest.mark.parametrize("name", BODIES)
-def test_totals(name: str, method: str, theirs: Callable[[str], Answer]) -> None:
+def test_totals_are_those_of_the_surface_evolver(name: str, method: str, theirs: Callable[[str], Answer]) -> None:
     key, factor = TOTALS[method]
     value = ours(name).totals[key]
     assert isinstance(value, float)

@@ -70,7 +70,7 @@ def agree(
 
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_vertex_columns(name: str, scale: str) -> None:
+def test_columns_of_vertices_are_exact(name: str, scale: str) -> None:
     known, factor = exact.Vertices(name).columns(), SCALES[scale]
     unreferenced = np.array([degree is None for degree in exact.expected(name)["vertices"]["degree"]])
 
@@ -97,7 +97,7 @@ def test_every_curvature_of_the_paper_is_compared() -> None:
 
 
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_edge_columns(name: str) -> None:
+def test_columns_of_edges_are_exact(name: str) -> None:
     known = exact.edges(name)
     result = analysis(name)
     edges = result.surface.edges
@@ -106,7 +106,7 @@ def test_edge_columns(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_status(name: str) -> None:
+def test_the_status_of_vertices_is_exact(name: str) -> None:
     vertices = exact.expected(name)["vertices"]
     wanted = [
         "unreferenced" if degree is None else "boundary" if boundary else "interior"
@@ -117,7 +117,7 @@ def test_status(name: str) -> None:
 
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_totals(name: str, scale: str) -> None:
+def test_totals_are_exact(name: str, scale: str) -> None:
     factor = SCALES[scale]
     estimates = {q.total for q in passes.quantities() if passes.depends_on_scale(q.name)}
     found = {key: value for key, value in analysis(name, factor).totals.items() if key not in estimates}
@@ -140,7 +140,7 @@ def test_totals(name: str, scale: str) -> None:
 
 
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_topology(name: str) -> None:
+def test_topology_is_exact(name: str) -> None:
     report = analysis(name).report()
     known = exact.expected(name)["topology"]
     found = report["topology"]
@@ -211,7 +211,7 @@ def test_constant_mean_curvature_and_minimality(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", exact.NAMES)
-def test_steiner(name: str) -> None:
+def test_coefficients_of_steiner_are_exact(name: str) -> None:
     found, known = analysis(name).report()["steiner"], exact.expected(name)["global"]
     assert found["convex"] == known["convex"]
     if known["volume"] is None:

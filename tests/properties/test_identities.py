@@ -48,7 +48,7 @@ def sample(name: str) -> Analysis:
 
 
 @pytest.mark.parametrize("name", names())
-def test_samples(name: str) -> None:
+def test_identities_hold_on_every_sample(name: str) -> None:
     result = sample(name)
     hold(result)
     gauss_bonnet_holds(result, int(get(name)().facts["euler_characteristic"] or 0))
@@ -81,7 +81,7 @@ def test_every_kind_of_surface_far_from_the_origin(name: str, offset: float) -> 
 
 @settings(max_examples=150)
 @given(strategies.any_mesh())
-def test_random_meshes(given: Mesh) -> None:
+def test_identities_hold_on_random_meshes(given: Mesh) -> None:
     result = curvcli.analyze(given.surface(), "all")
     hold(result)
     gauss_bonnet_holds(result, Complex(given).facts()["euler_characteristic"])

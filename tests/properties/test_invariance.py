@@ -100,14 +100,14 @@ def on_every_column(hold: Callable[[Quantity], None]) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_translation(name: str) -> None:
+def test_translation_changes_no_bit(name: str) -> None:
     """An offset that costs no digit changes no bit."""
     found, wanted = changed(name, translated), quantised(name)
     on_every_column(lambda quantity: same(quantity, found[quantity.name], wanted[quantity.name]))
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_rotation(name: str) -> None:
+def test_rotation_turns_only_vectors(name: str) -> None:
     """Vectors turn with the surface, numbers stay."""
     found = changed(name, rotated)
 
@@ -120,7 +120,7 @@ def test_rotation(name: str) -> None:
 
 @pytest.mark.parametrize(("change", "factor"), [(at_1e9, 1e9), (at_1e_9, 1e-9)])
 @pytest.mark.parametrize("name", NAMES)
-def test_scale(name: str, change: Change, factor: float) -> None:
+def test_scale_acts_by_the_declared_power(name: str, change: Change, factor: float) -> None:
     """The declared power of the scale."""
     found, plain = changed(name, change), of_zoo(name)
 
@@ -193,7 +193,7 @@ def reversed_column(quantity: Quantity, columns: Columns, without: Array) -> Arr
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_reversal(name: str) -> None:
+def test_reversal_changes_the_sign_of_what_is_odd(name: str) -> None:
     """What is declared even stays, what is declared odd changes its sign."""
     surface, found = meshes.zoo(name).surface(), changed(name, meshes.reversed_faces)
     face = ~surface.orientation.orientable[surface.orientation.patch]

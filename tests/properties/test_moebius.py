@@ -61,7 +61,7 @@ CENTRES = {
 
 @pytest.mark.parametrize("centre", CENTRES)
 @pytest.mark.parametrize("name", BODIES)
-def test_inversion(name: str, centre: str) -> None:
+def test_inversion_keeps_the_conformal_energy(name: str, centre: str) -> None:
     body = BODIES[name]
     before, after = analyse(body), analyse(inverted(body, np.array(CENTRES[centre])))
     assert energy(before) > 0.1

@@ -75,7 +75,7 @@ def test_the_version_stands_in_one_place(built: Built) -> None:
     assert released[0] in ("Unreleased", version)
 
 
-def test_the_metadata(built: Built) -> None:
+def test_the_metadata_has_licence_and_python(built: Built) -> None:
     said = metadata(built)
     assert said["License-Expression"] == "MIT"
     assert said.get_all("License-File") == ["LICENSE", "curvcli/output/html/three/LICENSE"]
@@ -93,7 +93,7 @@ def test_the_metadata(built: Built) -> None:
     assert {"test", "dask", "remote", "dev"} <= set(said.get_all("Provides-Extra") or [])
 
 
-def test_the_citation() -> None:
+def test_the_citation_has_the_keys_of_its_format() -> None:
     """The keys that the Citation File Format 1.2 demands, and the licence of the project."""
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert cited["cff-version"] == "1.2.0"

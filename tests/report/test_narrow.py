@@ -89,7 +89,7 @@ def test_the_advice_fits(width: int) -> None:
 
 @pytest.mark.parametrize("width", [60, 80, 120])
 @pytest.mark.parametrize("kind", KINDS)
-def test_it_fits(kind: str, width: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_wider_than_the_terminal(kind: str, width: int, monkeypatch: pytest.MonkeyPatch) -> None:
     stream = io.StringIO()
     made = Console(file=stream, width=width, force_terminal=True, color_system=None, highlight=False)
     for module in (accuracy_text, check_text, compare_text, curves_text, maps_text):

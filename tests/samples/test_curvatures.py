@@ -119,7 +119,7 @@ def on_disk(size: int, count: int) -> FloatArray:
     return np.stack([rho * np.cos(phi), rho * np.sin(phi)], axis=1)[:count]
 
 
-def test_enneper() -> None:
+def test_enneper_has_the_curvatures_of_its_map() -> None:
     sample = get("enneper")(size=400)
 
     def surface(u: Any, v: Any) -> list[Any]:
@@ -128,7 +128,7 @@ def test_enneper() -> None:
     check_map(sample, surface, on_disk(400, len(sample.points)), chosen(sample))
 
 
-def test_boys_surface() -> None:
+def test_boys_surface_has_the_curvatures_of_its_map() -> None:
     sample = get("projective_plane")(size=400)
 
     def surface(u: Any, v: Any) -> list[Any]:
@@ -160,7 +160,7 @@ def half_turn(eight: Callable[[Any], tuple[Any, Any]], radius: float) -> Surface
 
 
 @pytest.mark.parametrize("name", ["mobius", "klein_bottle"])
-def test_half_turned(name: str) -> None:
+def test_half_turned_strips_have_the_curvatures_of_their_maps(name: str) -> None:
     sample = get(name)(size=400, radius=2.0, width=0.7)
     u = np.arctan2(sample.points[:, 1], sample.points[:, 0]) % (2 * np.pi)
     # 2 pi less a rounding is where the strip starts, not where it ends.
@@ -182,7 +182,7 @@ def test_half_turned(name: str) -> None:
 
 
 @pytest.mark.parametrize(("name", "neck"), [("unduloid", 0.3), ("nodoid", -0.3)])
-def test_delaunay_surfaces(name: str, neck: float) -> None:
+def test_delaunay_surfaces_have_the_curvatures_of_their_profiles(name: str, neck: float) -> None:
     sample = get(name)(size=400, neck=0.3, bulge=1.2, periods=1)
     small, large = mp.mpf(neck), mp.mpf(1.2)
     modulus = 1 - (small / large) ** 2
@@ -200,7 +200,7 @@ def test_delaunay_surfaces(name: str, neck: float) -> None:
     assert np.ptp(sample.exact["h_signed"]) == 0
 
 
-def test_developable_strip() -> None:
+def test_the_developable_strip_has_the_curvatures_of_its_map() -> None:
     sample = get("developable_strip")(size=400, length=3.0, bend=1.5)
     ends = sample.points[:, 1] == -0.5
     s = np.linspace(-1.5, 1.5, int(ends.sum()))[np.cumsum(ends) - 1]
@@ -212,7 +212,7 @@ def test_developable_strip() -> None:
     check_map(sample, surface, np.stack([s, sample.points[:, 1]], axis=1), chosen(sample))
 
 
-def test_trefoil_tube() -> None:
+def test_the_trefoil_tube_has_the_curvatures_of_its_map() -> None:
     sample = get("trefoil_tube")(size=600, radius=1.0, tube=0.4)
     around = 2 * math.pi * 0.4
     rows, columns = split(600, sample.limit["area"] / around**2)

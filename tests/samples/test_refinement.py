@@ -40,7 +40,7 @@ def fact(made: Sample, report: dict[str, dict[str, object]], key: str) -> object
 
 
 @pytest.mark.parametrize("name", names())
-def test_facts(name: str) -> None:
+def test_the_facts_of_a_sample_hold(name: str) -> None:
     made = get(name)()
     report = curvcli.analyze((made.points, made.faces), "all").report()
     assert len(made.facts) >= 12
@@ -66,7 +66,7 @@ def converges(name: str, key: str) -> bool:
 
 
 @pytest.mark.parametrize(("name", "key"), [pair for pair in limits() if converges(*pair)])
-def test_limits(name: str, key: str) -> None:
+def test_totals_approach_their_limits(name: str, key: str) -> None:
     """Errors fall at first order in the edges (curvature is missing along the boundary) or faster, or are rounding."""
     far, near = (totals(name, size)[key] for size in (COARSE, FINE))
     limit = limits_of(name)[key]

@@ -48,7 +48,7 @@ def mean_curvature_total(sample: Sample) -> float:
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if "K" in get(name)().exact])
-def test_angle_defects(name: str) -> None:
+def test_the_exact_K_is_the_angle_defect(name: str) -> None:
     sample = get(name)()
     known = ~np.isnan(sample.exact["K"])
     defect = 2 * np.pi - np.bincount(sample.faces.ravel(), corner_angles(sample).ravel())

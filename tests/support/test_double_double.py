@@ -30,7 +30,9 @@ def exact(x: DoubleDouble) -> Fraction:
 
 @pytest.mark.parametrize("operation", [add, sub, mul, truediv])
 @given(a=numbers(), b=numbers())
-def test_arithmetic(operation: Callable[[Any, Any], Any], a: DoubleDouble, b: DoubleDouble) -> None:
+def test_arithmetic_is_exact_to_100_bits(
+    operation: Callable[[Any, Any], Any], a: DoubleDouble, b: DoubleDouble
+) -> None:
     if operation is truediv and not exact(b):
         return
     found, wanted = operation(a, b), operation(exact(a), exact(b))
@@ -40,7 +42,7 @@ def test_arithmetic(operation: Callable[[Any, Any], Any], a: DoubleDouble, b: Do
 
 
 @given(numbers())
-def test_square_root(a: DoubleDouble) -> None:
+def test_square_roots_are_exact_to_100_bits(a: DoubleDouble) -> None:
     if exact(a) >= 0:
         assert abs(exact(a.sqrt()) ** 2 - exact(a)) <= exact(a) * Fraction(1, 2**100)
 

@@ -63,7 +63,7 @@ def test_a_triangle_without_area_has_no_normal() -> None:
     assert stream.getvalue().count(b"facet normal 0.0 0.0 0.0\n") == 2
 
 
-def test_no_triangles() -> None:
+def test_a_mesh_without_triangles_is_written() -> None:
     binary, text = io.BytesIO(), io.BytesIO()
     assert write_stl(binary, POINTS, np.zeros((0, 3), np.int32)) == ()
     write_stl_text(text, POINTS, np.zeros((0, 3), np.int32))

@@ -26,7 +26,7 @@ from tests.helpers.meshes import of_sample
         ("1.5,2", (1.5, 2)),
     ],
 )
-def test_views(view: str, angles: tuple[float, float] | None) -> None:
+def test_a_view_is_two_angles(view: str, angles: tuple[float, float] | None) -> None:
     assert parse_view(view) == angles
 
 
@@ -36,7 +36,7 @@ def test_a_view_that_is_none(view: str) -> None:
         parse_view(view)
 
 
-def test_sizes() -> None:
+def test_a_size_is_width_by_height() -> None:
     assert parse_size(None) is None
     assert parse_size("640x480") == parse_size(" 640 X 480 ") == (640, 480)
 
@@ -66,7 +66,7 @@ def test_what_is_not_installed_is_named_with_the_way_to_install_it(monkeypatch: 
         ((0.0, 0.0), (0, 1, 0), (0, 0, 1), (1, 0, 0)),
     ],
 )
-def test_frames(angles: tuple[float, float], right: object, up: object, towards: object) -> None:
+def test_a_frame_has_the_known_axes(angles: tuple[float, float], right: object, up: object, towards: object) -> None:
     np.testing.assert_allclose(frame(*angles), [right, up, towards], atol=1e-15)
 
 

