@@ -1,4 +1,4 @@
-"""Columns: what an analysis computed of one element, by name."""
+"""Columns of one element of an analysis, by name."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Holder(Protocol):
 
 
 def named(analysis: Holder, element: Element) -> dict[str, tuple[Quantity, int | None]]:
-    """The quantity of each column of an element that an analysis has, and which component of it the column is."""
+    """Quantity of each column of an element that an analysis has, and the component for a column of a vector."""
     found: dict[str, tuple[Quantity, int | None]] = {}
     offered = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
     for quantity in map(passes.quantity, offered):
@@ -34,9 +34,9 @@ def named(analysis: Holder, element: Element) -> dict[str, tuple[Quantity, int |
 
 
 class Columns(Mapping[str, Array]):
-    """Columns of one element by name, read-only; a vector is there by its stem as (n, 3) and by its components.
+    """Columns of one element by name, read-only; vectors by their stem as (n, 3) and by their components.
 
-    Of vertices, the passes chosen; of edges and faces all there are, computed when they are first asked for.
+    Vertex columns are those of the chosen passes; edge and face columns are complete, computed on first use.
     """
 
     def __init__(self, analysis: Holder, quantities: Mapping[str, tuple[Quantity, int | None]]) -> None:

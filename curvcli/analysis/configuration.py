@@ -1,4 +1,4 @@
-"""What a configuration file has to do with a verdict, in every report and in one sentence."""
+"""The configuration file that a verdict depends on, as a field of reports and as a sentence."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ..support.words import escape_text
 
 
 class Configuration(msgspec.Struct, frozen=True):
-    """The configuration file that applied and what it set that a verdict can depend on, by the names of options."""
+    """Configuration file that applied, with the settings that a verdict can depend on, by the names of options."""
 
     file: str
     sets: dict[str, Any]
 
     @property
     def sentence(self) -> str:
-        """For people, on one line."""
+        """One line for people."""
         return escape_text(f"configuration: {self.file} sets {self.words}")
 
     @property
@@ -30,14 +30,14 @@ class Configuration(msgspec.Struct, frozen=True):
 
 
 Configured = Configuration | msgspec.UnsetType
-"""The field of a report; absent where no configuration file has to do with the verdict."""
+"""Field of a report; absent where the verdict does not depend on a configuration file."""
 
 
 def configured(found: Configuration | None) -> Configured:
-    """The field of a report."""
+    """Configuration as the field of a report."""
     return msgspec.UNSET if found is None else msgspec.structs.replace(found, file=escape_text(found.file))
 
 
 def sentence(found: Configured) -> str | None:
-    """The sentence of a field, None where it is absent."""
+    """Sentence for a field of a report; None where it is absent."""
     return None if isinstance(found, msgspec.UnsetType) else found.sentence

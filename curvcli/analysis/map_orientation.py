@@ -1,4 +1,4 @@
-"""Which faces a map turns over."""
+"""Orientation of a map on each face: the faces that it turns over."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def orientation(source: Surface, image: Surface, stretch: Stretch) -> Floats:
 
 
 def _signed_areas(surface: Surface) -> Floats | None:
-    """(F,) signs of the areas of the faces as wound, seen from one side of the plane of the surface; None in space."""
+    """(F,) signs of the areas of the faces as wound, from one side of the plane of the surface; None in space."""
     used = surface.referenced
     xyz = surface.xyz.compress(used, axis=1)
     offset = xyz - xyz[:, :1]
@@ -79,7 +79,7 @@ def _carried(source: Surface, image: Surface, known: Mask) -> tuple[Floats, Inde
     one, other = one // 3, other // 3
     bends = [_bend(surface, source.faces, one, other, against) for surface in (source, image)]
     folded = np.abs(bends[0] - bends[1]) > np.pi / 2 + 64 * EPSILON
-    # The double cover: a face the one way up and the other.
+    # Double cover: each face with either side up.
     count = source.n_faces
     ahead = np.where(folded, other + count, other), np.where(folded, other, other + count)
     _, label = label_graph(2 * count, np.concatenate([one, one + count]), np.concatenate(ahead))
@@ -88,7 +88,7 @@ def _carried(source: Surface, image: Surface, known: Mask) -> tuple[Floats, Inde
 
 
 def _bend(surface: Surface, faces: Index, one: Index, other: Index, against: Mask) -> Floats:
-    """(E,) the unsigned dihedral angle between two faces of each edge, 0 where they go on in a plane."""
+    """(E,) unsigned dihedral angle between two faces of each edge, 0 where they continue in a plane."""
     angle = np.empty(len(one))
     for block in slices(len(one)):
         here, there = (np.array(triangles(surface.xyz, faces[side[block]]).normal) for side in (one, other))
@@ -101,7 +101,7 @@ def _bend(surface: Surface, faces: Index, one: Index, other: Index, against: Mas
 
 
 def _majority(sign: Floats, piece: Index, area: Floats, known: Mask) -> Floats:
-    """The signs, those of each piece reversed where most of its area has the other one; NaN where none is known."""
+    """Signs, reversed on each piece where most of its area has the other sign; NaN where none is known."""
     known = known & (sign != 0)
     total = np.bincount(piece[known], (sign * area)[known], minlength=int(piece.max(initial=0)) + 1)
     return np.where(known, np.where(total[piece] < 0, -sign, sign), np.nan)

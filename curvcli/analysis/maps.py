@@ -1,4 +1,4 @@
-"""Maps f: M → E³ that are linear on every face: what they stretch, how far they are from conformal and harmonic."""
+"""Maps f: M → E³ that are linear on every face: stretch, distance from conformal and from harmonic."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ Floats = NDArray[np.float64]
 
 
 class SurfaceMap:
-    """The map f that sends each vertex of a surface M to the vertex of the same index of another, linear on faces.
+    """Map f that sends each vertex of a surface M to the vertex of the same index of another, linear on faces.
 
     source: M. image: a surface with the same faces in the same order, or the points f(p) as an array (V, 3). Both may
-    be anything that stands for a surface: a Surface, a path, a trimesh.Trimesh or (points, faces).
-    σ₁ ≥ σ₂ ≥ 0 are the singular values of f on a face; `orientation` tells which faces f turns over.
+    be a Surface, a path, a trimesh.Trimesh or a pair (points, faces).
+    σ₁ ≥ σ₂ ≥ 0 are the singular values of f on a face; `orientation` marks the faces that f turns over.
     Columns are in the files' units; null (NaN) on degenerate faces of M and at their corners.
     Errors: InputError where the faces differ, with the first difference.
     Source: Sullivan, Discrete surfaces; Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates.
     """
 
-    # Of texture maps: edges along which the image is cut, and what a report calls the image.
+    # For texture maps: number of edges along which the surface is cut, and the name of the image in a report.
     seams: int | None = None
     image_name: str | None = None
 
@@ -52,7 +52,7 @@ class SurfaceMap:
 
     @cached_property
     def stretch(self) -> Stretch:
-        """The differential on every face."""
+        """Differential on every face."""
         return stretch(self.source, self.image)
 
     @cached_property
@@ -100,7 +100,7 @@ class SurfaceMap:
 
     @property
     def turned_over(self) -> NDArray[np.int64]:
-        """Faces that f turns over."""
+        """Indices of the faces that f turns over."""
         return np.flatnonzero(self.orientation < 0)
 
     @property
@@ -138,7 +138,7 @@ class SurfaceMap:
 
     @cached_property
     def _sums(self) -> dict[str, tuple[Surface, Floats]]:
-        """Each total in the unit of computation, and whose that is."""
+        """Each total in the unit of computation, with the surface of that unit."""
         s = self.stretch
         columns = {
             "dirichlet": (self.image, self._cotangent.energy),
@@ -151,12 +151,12 @@ class SurfaceMap:
     @cached_property
     def totals(self) -> dict[str, float]:
         """`dirichlet` E(f), `area` of M, `image_area`, `nonconformality` E(f) − area f(M) as a sum over faces."""
-        # Summed before they are turned into the file's unit, where a single face may be out of range.
+        # Summed before the change to the file's unit, where a single face may be out of range.
         return {name: float(unit.in_file_unit(total, 2)) for name, (unit, total) in self._sums.items()}
 
     @property
     def _lost(self) -> Counter[str]:
-        """How many values of each column and total no double holds in the file's unit."""
+        """Number of values of each column and total that are beyond the range of doubles in the file's unit."""
         s = self.stretch
         columns = [
             ("sigma_1", s.sigma_1, self.sigma_1),
@@ -173,7 +173,7 @@ class SurfaceMap:
 
     @cached_property
     def harmonic(self) -> tuple[float, int | None, float]:
-        """The largest residual, its vertex, and what rounding alone can make of it; NaN, None, NaN without one."""
+        """Largest residual, its vertex, and the bound on its rounding; NaN, None, NaN without one."""
         residual = self.harmonic_residual
         if np.isnan(residual).all():
             return np.nan, None, np.nan
@@ -213,14 +213,14 @@ class SurfaceMap:
 
     @cached_property
     def notices(self) -> list[Notice]:
-        """Faces on which the map is undefined, faces that it flattens, and what the file's unit cannot hold."""
+        """Notices of faces where f is undefined, faces that f flattens, and values beyond the file's unit."""
         collapsed = np.flatnonzero(self.stretch.collapsed)
         told = (
             (
                 "degenerate_source_faces",
                 self._degenerate,
                 "[face|faces] of the source without area; f is undefined there",
-                "remesh A: where a face has no area nothing can be said of its image",
+                "remesh A: on a face without area the differential is undefined",
             ),
             (
                 "collapsed_faces",
@@ -256,7 +256,7 @@ class SurfaceMap:
 
 
 def _on_same_faces(source: Surface, given: Any) -> Surface:
-    """The image as a surface, once its faces are known to be the source's."""
+    """The image as a surface, after a check that its faces are the source's."""
     if isinstance(given, np.ndarray):
         if given.shape != source.points.shape:
             raise InputError(f"points of shape {given.shape}, expected {source.points.shape} as in the source")

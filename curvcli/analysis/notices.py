@@ -1,4 +1,4 @@
-"""What a mesh has that its user should know: defects counted, with the first few and the way out."""
+"""Notices of a surface: its defects with their counts, their first places and a hint."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ from ..mesh.triangles import dot, span
 from ..mesh.walls import WALL, facing_pairs
 from ..support.words import counted, pluralize
 
-# Rounding of the coordinates that moves K by more than this many radians is worth a warning: to doubles; and to
-# float32, which is what most files hold and what their users know, where it spoils K altogether.
+# A change of K above this, in radians, by rounding of the coordinates is reported: to doubles; and to
+# float32, the format of most files, where it spoils K altogether.
 TRUSTED, TRUSTED_SINGLE = 1e-6, 0.5
 
 
 def of_surface(surface: Surface, columns: Mapping[str, Any]) -> list[Notice]:
-    """The notices of a surface, from the gravest down."""
+    """Notices of a surface, the gravest first."""
     return [notice for notice in _all(surface, columns) if notice.count]
 
 
 def out_of_range(lost: Mapping[str, int]) -> list[Notice]:
-    """The notice of results that no double holds in the file's unit; lost: how many of each column and total."""
+    """Notice of results beyond the range of doubles in the file's unit; lost: the count by column and total."""
     names = [name for name, count in lost.items() if count]
     if not names:
         return []
@@ -54,7 +54,7 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
             _clamped(surface, columns),
             "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
             "H and K are discretised apart: at umbilics, as on spheres, a small error does it; elsewhere the mesh is "
-            "coarse or rough",
+            "coarse or noisy",
         )
     if "folded" in columns:
         yield Notice.at(
@@ -82,7 +82,7 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
 
 
 def _not_fitted(columns: Mapping[str, Any]) -> Iterator[Notice]:
-    """At each scale, where no polynomial over a plane can be the surface."""
+    """Notices of the vertices of each scale where no polynomial over a plane fits the surface."""
     for name in sorted(columns):
         plain, _, scale = name.partition(AT_SCALE)
         if plain == "no_graph":
@@ -91,14 +91,15 @@ def _not_fitted(columns: Mapping[str, Any]) -> Iterator[Notice]:
                 np.flatnonzero(columns[name]),
                 f"[vertex|vertices] whose neighbourhood{f' ({describe_scales(scale)})' if scale else ''} folds over or "
                 "bends more than a graph over its tangent plane can; local fits are undefined there",
-                "*_corrected needs no plane; a smaller scale bends less, and a finer mesh tells more",
+                "*_corrected needs no plane; take a smaller scale or a finer mesh",
             )
 
 
 def _clamped(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
-    """Vertices whose radicand is clamped, without flat ones: those where K is below what rounded coordinates make it.
+    """Vertices with a clamped radicand; flat ones, where K is below the rounding of the coordinates, are left out.
 
-    Ends that move by one in the last place turn the edges of a flat star by about place/√A, and K is quadratic in that.
+    Coordinates that change by one unit in the last place turn the edges of a flat star by about place/√A, and K is
+    quadratic in that.
     """
     found = np.flatnonzero(columns["kappa_clamped"])
     if not len(found):
@@ -127,12 +128,12 @@ def _not_a_manifold(surface: Surface) -> Iterator[Notice]:
 def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     loose = ~surface.referenced
     if surface.file is not None and surface.file.welded_to is not None:
-        loose &= surface.file.welded_to < 0  # merged rows have a notice of their own
+        loose &= surface.file.welded_to < 0  # merged rows have their own notice
     yield Notice.at(
         "unreferenced_vertices",
         np.flatnonzero(loose),
         "[vertex|vertices] that no face uses; [its row is|their rows are] empty",
-        "nothing else depends on [it|them]; `curvcli check --require no-unreferenced` refuses such files",
+        "no other result depends on [it|them]; `curvcli check --require no-unreferenced` refuses such files",
     )
     flat = np.flatnonzero(columns["degenerate_face"])
     corners = surface.xyz[:, surface.faces[flat]]
@@ -152,7 +153,7 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
         "[face|faces] with the same corners as an earlier one",
         "see facing_faces: each side of a common wall belongs to its body"
         if len(twice) == len(pairs)
-        else "remove [it|them] unless both sides are meant: each adds to area and angles",
+        else "remove [it|them] , unless you mean both sides: each adds to area and angles",
     )
     yield Notice.at(
         "facing_faces",
@@ -185,9 +186,9 @@ def _winding(surface: Surface) -> Iterator[Notice]:
         "inconsistent_winding",
         np.flatnonzero(surface.winding_conflicts),
         f"[edge|edges] whose two faces run along [it|them] the same way{turned if flipped else ''}",
-        "nothing is lost: the lowest face of each patch decides"
+        "results are unaffected: each patch follows its lowest-numbered face"
         if flipped
-        else "no choice of sides puts [it|them] right: see not_orientable",
+        else "no orientation is consistent there: see not_orientable",
     )
     yield Notice.at(
         "not_orientable",
@@ -199,14 +200,14 @@ def _winding(surface: Surface) -> Iterator[Notice]:
 
 
 def _first_faces(surface: Surface, patches: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """The lowest face of each of these patches."""
+    """Lowest face of each of these patches."""
     if not patches.any():
         return np.empty(0, np.intp)
     return np.unique(surface.orientation.patch, return_index=True)[1][patches]
 
 
 def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
-    """How much K may owe to the rounding of the coordinates, to doubles or to the float32 numbers they all are."""
+    """Notice of vertices where rounding of the coordinates, to doubles or to float32, may change K."""
     shortest = max(last_place(surface) / TRUSTED, last_place(surface, np.float32) / TRUSTED_SINGLE)
     if _edges_are_longer(columns, surface.faces, 2 * np.sqrt(3) * surface.degree.max() * shortest):
         return
@@ -227,8 +228,8 @@ def _coordinate_rounding(surface: Surface, columns: Mapping[str, Any]) -> Iterat
 
 
 def _edges_are_longer(columns: Mapping[str, Any], faces: NDArray[Any], length: float) -> bool:
-    """Whether every edge surely is, without a look at the edges: none is shorter than twice the area of its face by the
-    longest edge of that, which is less than what the extents of the faces at a vertex add up to."""
+    """True if every edge is surely longer than `length`, by a bound that needs no edges: an edge is at least twice the
+    area of its face over the longest edge there, which is less than the sum of the extents of the faces at a vertex."""
     area, extent = columns["face_area"], columns["star_extent"]
     if 2 * area.min() > length * np.nanmax(extent):
         return True
@@ -236,11 +237,11 @@ def _edges_are_longer(columns: Mapping[str, Any], faces: NDArray[Any], length: f
 
 
 def _more_digits(surface: Surface) -> str:
-    """Where the digits went that K would need."""
+    """Hint: the cause of the lost digits of K."""
     used = surface.used_coordinates()
     largest = np.abs(used).max()
     if largest < np.finfo(np.float64).tiny:
-        return "numbers near the end of the range have fewer digits: scale the mesh before it is written"
+        return "near the end of the range numbers have fewer digits: scale the mesh before it is written"
     if largest / 16 > (used.max(axis=1) / 2 - used.min(axis=1) / 2).max():
         return "the mesh is small against its distance from the origin: move it there before it is written"
     return "edges are that short against the mesh: more digits in the file, or --weld TOL, which merges their ends"
@@ -249,10 +250,10 @@ def _more_digits(surface: Surface) -> str:
 def rounding_of_K(
     surface: Surface, edge_length: NDArray[np.float64], place: float, trusted: float
 ) -> NDArray[np.float64]:
-    """(V,) how far K could be from that of the surface before its coordinates were rounded; 0 where nobody asks.
+    """(V,) bound on the change of K by rounding of the coordinates; 0 where it cannot exceed `trusted`.
 
     Ends that move by δ each turn an edge e by up to 2δ/|e|; δ = ½ √3 place. place: the unit in the last place of the
-    largest coordinate. Edges without length are left out. trusted: what may be ignored.
+    largest coordinate. Edges without length are left out. trusted: the change that may be ignored.
     """
     turn = np.divide(np.sqrt(3) * place, edge_length, where=edge_length > 0, out=np.zeros_like(edge_length))
     if 2 * surface.degree.max() * turn.max() <= trusted:

@@ -28,7 +28,7 @@ Normals = Literal["mesh", "file"]
 
 @dataclass(frozen=True)
 class Conventions:
-    """The choices that change numbers or their names; every output states them."""
+    """Choices that change numbers or their names; every output states them."""
 
     mean: str = "sum"
     area: str = "barycentric"
@@ -43,7 +43,7 @@ class Conventions:
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """The options of an analysis, as `curvcli.analyze` documents them.
+    """Options of an analysis, documented at `curvcli.analyze`.
 
     besides: quantities that tables and colours need beside the report, computed in the same evaluation; the report does
     not depend on them.
@@ -78,13 +78,13 @@ class Request:
 
     @cached_property
     def settings(self) -> Settings:
-        """The scales, the normals and the noise of estimates."""
+        """Scales, normals and noise of estimates."""
         scales = parse_scales(self.rings, self.radius)
         return Settings(scales or DEFAULTS.scales, self.normals, self.noise)
 
     @cached_property
     def chosen(self) -> list[str]:
-        """The columns: those named, or `core`, with `estimates` where a scale is given.
+        """Columns: those named, or `core`, with `estimates` where a scale is given.
 
         A name may give one of several scales: `K_fit@2e`.
         """
@@ -98,16 +98,16 @@ class Request:
 
     @cached_property
     def named_checks(self) -> list[str] | None:
-        """The checks by name; None stands for those whose needs the chosen passes meet."""
+        """Names of the checks; None stands for all whose needs the chosen passes meet."""
         return None if self.checks is None else known_checks(self.checks)
 
     @property
     def labels(self) -> str | NDArray[np.integer[Any]] | None:
-        """The source of the regions: a name, or labels."""
+        """Source of the regions: a name, or labels."""
         return os.fspath(self.regions) if isinstance(self.regions, os.PathLike) else self.regions
 
     def conventions(self, surface: Surface) -> Conventions:
-        """The conventions of the numbers of a surface; an option that no chosen column depends on is None."""
+        """Conventions of the numbers of a surface; None for an option that no chosen column depends on."""
         plain = {name.partition(AT_SCALE)[0] for name in self.chosen}
         scaled = any(registry.depends_on_scale(name) for name in plain)
         used = {need for one in schedule(registry, plain, "barycentric") for need in one.needs}

@@ -1,4 +1,4 @@
-"""Notices of densities and energies of stars that answer another question: a scale, rough and creased meshes."""
+"""Notices of stars at the wrong scale: estimates beside them, rough meshes and creased meshes."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ STARS = (
     *("h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2", "kappa_max"),
     *("shape_index", "curvedness", *_ENERGIES),
 )
-# Faces and vertices that are looked at, at equal steps.
+# Faces and vertices that are sampled, at equal steps.
 _SAMPLE = 1 << 14
 # An edge that bends more than the angular step of a coarse export is sharp; one that bends a twentieth of it is flat.
 SHARP = np.pi / 6
 _FLAT = 1 / 20
 
-# Columns of stars name themselves after what they are; estimates after the curvature alone.
+# Names of columns of stars start with the quantity; names of estimates, with the curvature alone.
 _STAR_ALONE = ("_density", "_signed")
 
 
 def counterparts(quantity: Quantity) -> list[str]:
-    """Estimates at a scale of the same curvature as a column of stars: `h_ring`, `h_corrected`, … for `h_signed`."""
+    """Estimates at a scale of the curvature that a column of stars has: `h_ring`, `h_corrected`, … for `h_signed`."""
     if passes.depends_on_scale(quantity.name) or quantity.on != "vertex":
         return []
     stem = quantity.name
@@ -53,9 +53,9 @@ def counterparts(quantity: Quantity) -> list[str]:
 
 
 def unscaled(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notice]:
-    """The notice of chosen columns to which the scale that was asked for does not apply, though others have one.
+    """Notice of chosen columns that ignore the given scale although estimates of the same curvature have one.
 
-    A column beside which one of its estimates is chosen is meant as it is.
+    A column is left out if one of its estimates is chosen too.
     """
     plain = {name.partition(AT_SCALE)[0] for name in chosen}
     found = {name: counterparts(passes.quantity(name)) for name in sorted(plain)} if scales else {}
@@ -75,7 +75,7 @@ def unscaled(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notic
 
 
 def beside(chosen: Iterable[str]) -> tuple[str, ...]:
-    """The columns by which `of_stars` judges the chosen ones."""
+    """Columns that `of_stars` needs to judge the chosen ones."""
     plain = {name.partition(AT_SCALE)[0] for name in chosen}
     return () if plain.isdisjoint(STARS) else ("h_signed",)
 
@@ -83,9 +83,9 @@ def beside(chosen: Iterable[str]) -> tuple[str, ...]:
 def of_stars(
     surface: Surface, columns: Mapping[str, Any], chosen: Iterable[str], totals: Mapping[str, Any], asked: bool
 ) -> Iterator[Notice]:
-    """The notices of densities and energies of stars: on a creased mesh, and of energies on a rough one.
+    """Notices of densities and energies of stars: on a creased mesh, and of energies on a rough one.
 
-    chosen: the columns that are shown. totals: by the report's keys. asked: whether a scale is given.
+    chosen: the columns shown. totals: by the report's keys. asked: whether a scale is given.
     """
     if "h_signed" not in columns or not beside(chosen):
         return
@@ -97,8 +97,8 @@ def of_stars(
             f"[edge|edges] that [bends|bend] more than {np.degrees(SHARP):.0f}° and [carries|carry] most of the bend; "
             "most other edges are flat: the density of a star divides the bend of an edge by whatever triangles are "
             "next to it",
-            "theta, and kappa_across for fillets, are the quantities (--table edges=PATH, --color-by theta); K and "
-            "H_vec stay exact in sum",
+            "read theta, and kappa_across for fillets (--table edges=PATH, --color-by theta); the sums of K and "
+            "H_vec stay exact",
         )
         return
     shown = {key: totals[key] for key in _ENERGIES if totals.get(key) is not None}
@@ -116,7 +116,7 @@ def of_stars(
             [],
             f"[energy|energies] of stars, of which {noise:.0%} is at the scale of single edges: noise, steps or uneven "
             f"triangles, not the surface ({values})",
-            "mind the totals at a scale; they agree where they can be trusted"
+            "compare the totals at a scale; where they agree, trust them"
             if at_scale
             else "-p willmore_corrected at a --radius or --rings above the steps is that of the surface behind them",
             len(shown),
@@ -124,9 +124,9 @@ def of_stars(
 
 
 def _apart(columns: Mapping[str, Any], scaled: Mapping[str, str], totals: Mapping[str, Any]) -> Iterator[Notice]:
-    """The notice of energies at a scale that differ from that of stars, which is no noise, by more than a factor of 2.
+    """Notice of energies at a scale that differ by more than a factor of 2 from that of stars, where this is no noise.
 
-    Only vertices where both are known are compared, and only where stars resolve the energy: not of minimal surfaces.
+    Only vertices where both are known are compared, and only where stars resolve the energy: not on minimal surfaces.
     """
     star = columns["h_signed"] ** 2 * columns["star_area"]
     square, bend = np.nan_to_num(star), np.nan_to_num(-2 * columns["K"])
@@ -156,7 +156,7 @@ def _apart(columns: Mapping[str, Any], scaled: Mapping[str, str], totals: Mappin
 
 
 def roughness(surface: Surface, columns: Mapping[str, Any]) -> float | None:
-    """The part of the Willmore energy of stars that is noise from vertex to vertex; None where the surface explains it.
+    """Share of the Willmore energy of stars that is noise from vertex to vertex; None where the surface explains it.
 
     Averaging H over the corners of each face leaves a third of independent noise, and of a smooth H all but what is
     proportional to the squared edge: with the ratio r of the energies the noise is 3(1 − r)/2. It is reported where it
@@ -188,10 +188,10 @@ def roughness(surface: Surface, columns: Mapping[str, Any]) -> float | None:
 
 
 def creases(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
-    """The sharp edges of a creased mesh, empty for other meshes.
+    """Sharp edges of a creased mesh; empty for other meshes.
 
     They are fewer than half of its edges and carry more than half of Σ|θ||e|, and at least half of all edges are flat
-    beside them; of the others, where they bend by two steps of a coarse tessellation on the average.
+    beside them; the other edges may bend by at most two steps of a coarse tessellation on average.
     """
     none = np.empty(0, np.intp)
     if not _bent_at_few(columns):
@@ -211,9 +211,9 @@ def creases(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
 
 
 def _bent_at_few(columns: Mapping[str, Any]) -> bool:
-    """Whether more than half of Σ|**H**_p| may lie at stars that a sharp edge crosses; found without the edges.
+    """True if more than half of Σ|**H**_p| may lie at stars that a sharp edge crosses; computed without the edges.
 
-    Where an edge of angle φ parts a star into equal halves, |**A**_p| = A_p cos(φ/2); a quarter of 1 − |**A**_p|/A_p
+    If an edge of angle φ splits a star into equal halves, |**A**_p| = A_p cos(φ/2); a quarter of 1 − |**A**_p|/A_p
     allows for uneven parts.
     """
     vector, area = columns["star_vector"], columns["star_area"]

@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 
-# Checks of components and regions are listed one by one up to this many; beyond, those that fail.
+# Up to this many components or regions, their checks are listed one by one; beyond, only those that fail.
 LISTED_GROUPS = 100
 
-# What the report's statistics and the default check need whatever is asked for.
+# Needs of the report's statistics and of the default check, in every analysis.
 _ALWAYS = ("status", "degree", "star_area", "star_vector", "face_area", "degenerate_face", "K", "kappa_g")
 
 
@@ -85,21 +85,21 @@ class Result:
 
     @cached_property
     def _closure(self) -> set[str]:
-        """Every quantity that is computed on the way to the chosen ones."""
+        """Every quantity that is computed for the chosen ones."""
         plain = (name.partition(AT_SCALE)[0] for name in self.chosen)
         order = schedule(passes, [*plain, *_ALWAYS], self.request.area)
         return {quantity.name for one in order for quantity in one.provides}
 
     @cached_property
     def _totalled(self) -> list[str]:
-        """What is summed: of several scales, that of each for which the column itself is chosen."""
+        """Quantities with totals; of several scales, those whose column is chosen."""
         scaled = [name for name in self.chosen if AT_SCALE in name]
         plain = [name for name in self._closure if not (scaled and passes.depends_on_scale(name))]
         return [quantity.name for quantity in summed([*plain, *scaled])]
 
     @cached_property
     def _flags(self) -> list[str]:
-        """Hidden flags on the way to the chosen columns: what they mark is reported."""
+        """Hidden flags that the chosen columns depend on; notices report the elements they mark."""
         flags = (name for name in self._closure if passes.quantity(name).kind == "flag")
         return at_scales(flags, self.settings)
 
@@ -110,7 +110,7 @@ class Result:
     # ------------------------------------------------------------------ columns
 
     def column(self, name: str) -> Array:
-        """One column as a user sees it: (n,), (n, 3), or strings for labels."""
+        """One column as in the outputs: (n,), (n, 3), or strings for labels."""
         return in_file_unit(passes.quantity(name), self.computed(name), self.surface, self.request.mean)
 
     def shown(self, name: str) -> Array:
@@ -140,7 +140,7 @@ class Result:
         return {name: found[name] for name in names}
 
     def depends_on_area(self, name: str) -> bool:
-        """Whether a quantity follows from the cell area of the request."""
+        """True if a quantity follows from the cell area of the request."""
         return any(CELL_AREA in one.needs for one in schedule(passes, [name], self.request.area))
 
     @property
@@ -159,7 +159,7 @@ class Result:
         return self._columns_of("face")
 
     def _columns_of(self, element: Element) -> Columns:
-        """Columns refer to their analysis, so that it must not keep them: a circle would hold its memory."""
+        """Columns refer to their analysis, so the analysis does not keep them: a cycle would hold its memory."""
         if element not in self._named:
             self._named[element] = named(self, element)
         return Columns(self, self._named[element])
@@ -186,7 +186,7 @@ class Result:
         return found
 
     def _checked(self, groups: Groups) -> list[Check]:
-        """The checks of every group, or of those that fail where there are very many."""
+        """Checks of every group; of very many groups, those that fail."""
         found: list[Check] = []
         for rule in self._rules:
             each = rule.run(self.surface, groups, self.columns)
@@ -195,12 +195,12 @@ class Result:
 
     @property
     def passed(self) -> bool:
-        """Whether no check failed."""
+        """True if no check failed."""
         return not any(check.status == "fail" for check in self.checks)
 
     @property
     def notices(self) -> list[Notice]:
-        """What was accepted but should be said: the loader's notices and the surface's defects."""
+        """Notices of the loader and of the surface's defects."""
         return [*self.surface.notices, *self._findings, *self.extra_notices]
 
     @cached_property
@@ -215,7 +215,7 @@ class Result:
 
     @property
     def _lost(self) -> Counter[str]:
-        """How many values of each chosen column and total no double holds in the file's unit."""
+        """Number of values of each chosen column and total that are beyond the range of doubles in the file's unit."""
         found: Counter[str] = Counter()
         if self.surface.unit_exponent:
             for quantity in map(passes.quantity, self.chosen):
@@ -241,7 +241,7 @@ def compute(given: Any, request: Request, kind: type[Kind]) -> Kind:
 
     Errors: those of `curvcli.analyze`.
     """
-    _ = request.chosen  # an unknown name is refused before a mesh is read
+    _ = request.chosen  # refuses an unknown name before a mesh is read
     surface = as_surface(given, orient=request.orient, weld=request.weld, normals=request.normals)
     labels = request.labels
     checks = request.named_checks

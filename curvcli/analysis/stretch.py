@@ -1,4 +1,4 @@
-"""The differential of a map between surfaces on the same faces: singular values, and how far from conformal it is."""
+"""Differential of a map between surfaces on the same faces: singular values and conformal distortion."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Stretch:
-    """What one sweep over the faces leaves of the differential of f, in the units of computation; (F,) each.
+    """Differential of f on every face, in the units of computation; (F,) each.
 
-    energy: ½ |∇f_T|² area. terms: its absolute terms, for the bound on its rounding.
-    collapsed: whether the image of the face has no area.
+    energy: ½ |∇f_T|² area. terms: sum of its absolute terms, for the bound on its rounding.
+    collapsed: true where the image of the face has no area.
     """
 
     sigma_1: Floats
@@ -37,7 +37,7 @@ class Stretch:
 
 
 def stretch(source: Surface, image: Surface) -> Stretch:
-    """Singular values of the differential on every face, and what follows from them.
+    """Singular values of the differential on every face, with energy and non-conformality.
 
     In orthonormal frames along the image of one edge the differential is [[a, b], [0, d]] with a, d ≥ 0. Then
     σ₁ + σ₂ = √((a + d)² + b²) and |σ₁ − σ₂| = √((a − d)² + b²): neither is a difference of squares, so that a
@@ -55,7 +55,7 @@ def stretch(source: Surface, image: Surface) -> Stretch:
         a = U / u if u.all() else np.divide(U, u, where=u > 0, out=np.full_like(u, np.nan))
         moves = U > 0
         with np.errstate(divide="ignore", invalid="ignore"):
-            # Where f sends the edge to a point, its other edge carries all the stretch.
+            # If f sends the edge to a point, the other edge carries all the stretch.
             b = np.where(moves, (t.cosines[0] * u / U - s.cosines[0] * a) / area, W * u / area)
             d = np.where(moves, t.twice_area * u / (U * area), 0.0)
         reach = (W * u + U * w) / area
@@ -65,7 +65,7 @@ def stretch(source: Surface, image: Surface) -> Stretch:
         scale = np.where(sigma_1 > 0, sigma_1, 1.0)
         made["sigma_2"][block] = np.minimum(t.twice_area / (area * scale), sigma_1)
         made["area"][block], made["image_area"][block] = s.twice_area / 2, t.twice_area / 2
-        # The root of the area goes to each factor: squares alone would leave the range of doubles on small faces.
+        # Each factor gets the root of the area: squares alone would leave the range of doubles on small faces.
         root = np.sqrt(area)
         a, b, d, gap, reach = (root * x for x in (a, b, d, gap, reach))
         made["nonconformality"][block] = 0.25 * gap * gap
@@ -76,7 +76,7 @@ def stretch(source: Surface, image: Surface) -> Stretch:
 
 
 def _largest_angle_first(xyz: Floats, face: Index) -> Index:
-    """Faces turned so that the longest edge lies opposite corner 0: the sine there is the largest."""
+    """Faces rotated so that the longest edge lies opposite corner 0: the sine there is the largest."""
     p, q, r = ([x[face[:, k]] for x in xyz] for k in range(3))
     edges = ([b - a for a, b in zip(tail, head, strict=True)] for tail, head in ((q, r), (r, p), (p, q)))
     first = np.argmax([dot(edge, edge) for edge in edges], axis=0)

@@ -1,4 +1,4 @@
-"""The texture of a file as a map of its surface into the plane."""
+"""Texture map: the texture coordinates of a file as a map of its surface into the plane."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .maps import SurfaceMap
 
 Floats = NDArray[np.float64]
 
-# The names that programs give to the texture coordinates of vertices.
+# Names of the texture coordinates of vertices in various programs.
 _PROPERTIES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 
 
 class TextureMap(SurfaceMap):
-    """The map f of a surface to its texture coordinates (u, v), linear on faces.
+    """Map f of a surface to its texture coordinates (u, v), linear on faces.
 
     Where corners of faces at one vertex have different coordinates the surface is cut open: a seam. f is continuous on
     the surface that is cut along its seams, and E(f), the sum over faces, is its energy there; no face is missing, and
@@ -53,7 +53,7 @@ class TextureMap(SurfaceMap):
 
     @cached_property
     def notices(self) -> list[Notice]:
-        """What is to be said of the map, and how many edges are seams."""
+        """Notices of the map, and the number of edges that are seams."""
         message = "[edge|edges] along which the texture is cut; vertices there count as boundary"
         hint = "the energy is that of the surface cut open: the sum over its faces"
         seams = Notice.of("texture_seams", (), message, hint, self.seams or 0)
@@ -62,7 +62,7 @@ class TextureMap(SurfaceMap):
 
     @cached_property
     def harmonic(self) -> tuple[float, int | None, float]:
-        """The largest residual, its vertex in the file, and what rounding alone can make of it."""
+        """Largest residual, its vertex in the file, and the bound on its rounding."""
         residual, vertex, bound = super().harmonic
         return residual, None if vertex is None else int(self.vertex[vertex]), bound
 
@@ -111,7 +111,7 @@ def _of_corners(file: MeshFile, surface: Surface) -> Floats:
 
 
 def _cut(faces: Index, uv: Floats) -> tuple[NDArray[np.int64], Index]:
-    """The vertex of each vertex and place in the texture, and the faces in terms of these."""
+    """Vertex of each pair of vertex and texture coordinates, and the faces in terms of these pairs."""
     corner = faces.ravel().astype(np.int64)
     u, v = uv.reshape(2, -1)
     order = np.lexsort([v, u, corner])
@@ -123,7 +123,7 @@ def _cut(faces: Index, uv: Floats) -> tuple[NDArray[np.int64], Index]:
 
 
 def _seams(surface: Surface, faces: Index) -> int:
-    """Edges of two faces whose ends the faces have at different places in the texture."""
+    """Number of edges whose two faces have different texture coordinates at its ends."""
     one, other = surface.edges.pairs
     same = same_direction(surface.faces, one, other)
     ends = [faces.ravel()[side] for side in (one, next_corner(one), other, next_corner(other))]

@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: str = "sum") -> dict[str, Floats]:
     """Every total that the given columns provide, (G,) or (G, 3), in the file's unit and the chosen convention for H.
 
-    What is odd under reversal of the orientation is NaN on groups that have none; nulls in a column are left out.
+    Totals that are odd under reversal of the orientation are NaN on groups without one; nulls in a column are left out.
     """
     found: dict[str, Floats] = {}
     for key, total, length_exponent, mean_degree in _computed(surface, groups, columns):
@@ -31,7 +31,7 @@ def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: s
 
 
 def lost_totals(surface: Surface, columns: Mapping[str, Any]) -> list[str]:
-    """Keys of the totals of the whole surface that are defined, but beyond the range of doubles in the file's unit."""
+    """Keys of the totals of the whole surface that are defined but beyond the range of doubles in the file's unit."""
     if not surface.unit_exponent:
         return []
     each = _computed(surface, surface.whole, columns)
@@ -39,7 +39,7 @@ def lost_totals(surface: Surface, columns: Mapping[str, Any]) -> list[str]:
 
 
 def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
-    """How many values are defined, but beyond the range of doubles in the file's unit."""
+    """Number of values that are defined but beyond the range of doubles in the file's unit."""
     if not surface.unit_exponent * length_exponent:
         return 0
     return int(np.count_nonzero(np.isnan(surface.in_file_unit(values, length_exponent)) & ~np.isnan(values)))
@@ -61,7 +61,7 @@ def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> I
 
 
 def summed(names: Collection[str]) -> list[Quantity]:
-    """Those of the named quantities that have a total, in the order of the report; of several scales each its own."""
+    """Named quantities that have a total, in the order of the report; of several scales, each its own."""
     at: dict[str, list[str]] = {}
     for name in names:
         at.setdefault(name.partition(AT_SCALE)[0], []).append(name)

@@ -1,1 +1,1 @@
-"""The report: its model (the JSON) and the ways it is shown."""
+"""Reports: the model (the JSON) and its other forms."""

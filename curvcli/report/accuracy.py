@@ -18,7 +18,7 @@ _NUMBERS = ("relative_l2", "linf", "rms", "bias", "relative_bias")
 
 
 class ColumnErrors(msgspec.Struct):
-    """One computed column against the exact one: norms of the error, weighted by the areas of the vertices."""
+    """Error norms of one computed column against the exact one, weighted by the areas of the vertices."""
 
     exact: str
     relative_l2: float | None
@@ -34,7 +34,7 @@ class ColumnErrors(msgspec.Struct):
 class Accuracy(msgspec.Struct):
     """The report of `curvcli compare` of a mesh with a table of exact values; errors by column.
 
-    equal: whether every relative L2 error is within rtol; true where none was asked for.
+    equal: whether every relative L2 error is within rtol; true if rtol is not given.
     """
 
     schema_version: int
@@ -59,7 +59,7 @@ def model(
     unmatched: list[str],
     notes: list[str],
 ) -> Accuracy:
-    """The report; rtol: what relative L2 errors may be, None for whatever they are."""
+    """Build the report; rtol: bound on relative L2 errors, None for no bound."""
     names = ColumnErrors.__struct_fields__
     found = {one.column: ColumnErrors(*(getattr(one, name) for name in names)) for one in errors}
     equal = rtol is None or all(one.relative_l2 is None or one.relative_l2 <= rtol for one in found.values())

@@ -1,28 +1,28 @@
-"""Which curvature to take: five sentences and one table, for the terminal and the documentation."""
+"""Choosing a curvature: five sentences and one table, for the terminal and the documentation."""
 
 from __future__ import annotations
 
 SENTENCES = (
-    "What has to add up (total curvature, forces, energies, regions) is asked of the measures K, H_vec and A: they are "
-    "exact on every mesh, and no estimate changes them.",
-    "The curvature at a point of a smooth surface, on an irregular mesh without noise, is K_fit, h_fit, kappa_1_fit "
-    "and kappa_2_fit: they come nearest and converge fastest. On regular grids that are coarse for the shape, "
-    "K_density, h and *_corrected are nearer; where the mesh folds over, as a cortex does, fits are empty and "
-    "*_corrected is there.",
-    "On a noisy mesh, such as a scan, it is K_corrected, h_corrected, kappa_1_corrected and kappa_2_corrected at a "
-    "radius well above the noise: --radius 2e,4e,8e gives one column for each, and where neighbouring scales agree the "
-    "value can be trusted.",
-    "Where the file has good normals of its own, --normals file lets the corrected curvatures use them, and --rings 1 "
-    "will do; from the triangles alone one ring is quick but does not converge on bad triangulations.",
-    "K_ring and h_ring tell how much of the exact measure lies in a neighbourhood per area, which is a fact about the "
-    "mesh; K_density, h and kappa_1 are the same of a single star and, as estimates, belong on regular meshes only.",
+    "Use K, H_vec and A for anything you sum (total curvature, forces, energies, regions): their sums are exact on "
+    "every mesh.",
+    "For the curvature at a point of a smooth surface, on an irregular mesh without noise, use K_fit, h_fit, "
+    "kappa_1_fit and kappa_2_fit: they have the smallest errors and converge fastest. On regular grids that are coarse "
+    "for the shape, K_density, h and *_corrected have smaller errors; where the mesh folds over, as a cortex does, "
+    "fits are empty and *_corrected is defined.",
+    "On a noisy mesh, such as a scan, use K_corrected, h_corrected, kappa_1_corrected and kappa_2_corrected at a "
+    "radius well above the noise: --radius 2e,4e,8e gives one column for each; trust values on which neighbouring "
+    "scales agree.",
+    "If the file has good normals, use them with --normals file for the corrected curvatures; --rings 1 is then "
+    "enough. With normals of the triangles, one ring is fast but does not converge on bad triangulations.",
+    "K_ring and h_ring are the exact measure in a neighbourhood per area, a fact about the mesh; K_density, h and "
+    "kappa_1 are the same for a single star. Use them as estimates on regular meshes only.",
 )
 
-# Lines of text are no longer, however wide the terminal is.
+# Maximum length of a line of text, on any terminal.
 WIDEST = 100
 
-# What the numbers are, NOTE says; docs/accuracy.md has them all, with the commands that measure them.
-HEADER = ("columns", "what they are", "on the boundary", "error of K", "error of H, noise")
+# NOTE describes the numbers; docs/accuracy.md has them all, with the commands that measure them.
+HEADER = ("columns", "definition", "on the boundary", "error of K", "error of H, noise")
 ROWS = (
     ("K, H_vec, A", "measures of a star, exact in sum", "K null, kappa_g", "", ""),
     ("K_density, h", "measures of a star per area", "null", "0.27, 0.55, 0.26", "over 8 (one star)"),
@@ -41,7 +41,7 @@ NOTE = (
 
 
 def markdown() -> str:
-    """The sentences as a list and the table."""
+    """Sentences as a list, and the table."""
     lines = [f"{number}. {_marked(sentence)}" for number, sentence in enumerate(SENTENCES, 1)]
     lines += ["", "| " + " | ".join(HEADER) + " |", "|" + "---|" * len(HEADER)]
     lines += ["| " + " | ".join((_marked(row[0]), *row[1:])) + " |" for row in ROWS]
@@ -49,7 +49,7 @@ def markdown() -> str:
 
 
 def plain(terminal: int | None = None) -> str:
-    """The same as text; terminal: how wide it may be, with numbers alone in the table where there is little room."""
+    """Sentences and table as text; terminal: its width: a narrow one gets the numbers alone in the table."""
     from textwrap import wrap
 
     width = min(terminal or WIDEST, WIDEST)
@@ -57,7 +57,7 @@ def plain(terminal: int | None = None) -> str:
     widths = [max(len(row[k]) for row in rows) for k in range(len(HEADER))]
     if terminal is not None and sum(widths) + 2 * len(widths) - 2 > terminal:
         rows, widths = [(row[0], *row[3:]) for row in rows], [widths[0], *widths[3:]]
-    parts = ["# Which curvature to take", ""]
+    parts = ["# Choosing a curvature", ""]
     for sentence in SENTENCES:
         parts += [*wrap(sentence, width - 2, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)]
     parts.append("")

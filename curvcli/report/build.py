@@ -1,4 +1,4 @@
-"""From an analysis to its report."""
+"""Reports from analyses."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ if TYPE_CHECKING:
 
 
 def build(analysis: Result) -> dict[str, Any]:
-    """The report as plain Python values."""
+    """Build the report as plain Python values."""
     found: dict[str, Any] = msgspec.to_builtins(model(analysis))
     return found
 
 
 def model(analysis: Result) -> Report:
-    """The report of an analysis."""
+    """Build the report of an analysis."""
     surface = analysis.surface
     whole = _whole(analysis)
     conventions = analysis.conventions
@@ -73,7 +73,7 @@ def model(analysis: Result) -> Report:
 
 
 def pieces(analysis: Result, groups: Groups) -> list[Piece]:
-    """Topology, totals and the rest for each group of a surface."""
+    """Topology, totals and further values of each group of a surface."""
     counts = _counts(analysis, groups)
     totals = {key: _plain(values) for key, values in analysis.totals_of(groups).items()}
     extras = _extras(analysis, groups)
@@ -95,7 +95,7 @@ def _whole(analysis: Result) -> Piece:
 
 @cached
 def _components(analysis: Result) -> list[Piece]:
-    """The components of a surface; a single one from the surface itself, but for the vertices that no face uses."""
+    """Components of a surface; a single one from the surface itself, but for the vertices that no face uses."""
     if analysis.surface.components.count == 1:
         whole = _whole(analysis)
         return [replace(whole, topology=replace(whole.topology, unreferenced_vertices=0))]
@@ -125,7 +125,7 @@ def loops(analysis: Result) -> list[dict[str, Any]]:
 
 
 def _extras(analysis: Result, groups: Groups) -> dict[str, Callable[[int], Any]]:
-    """What only some passes allow: for each key a function from the group to its value."""
+    """Values that need certain passes: for each key a function from the group to its value."""
     surface, columns = analysis.surface, analysis.columns
     factor = 0.5 if analysis.conventions.mean == "average" else 1.0
     found: dict[str, Callable[[int], Any]] = {}
@@ -174,7 +174,7 @@ def _defects(analysis: Result, groups: Groups) -> dict[str, list[int]]:
 
 
 def merged(surface: Surface) -> int:
-    """Rows whose values stand in the row they were welded to."""
+    """Number of rows whose values are in the row they were welded to."""
     welded = surface.file.welded_to if surface.file is not None else None
     return 0 if welded is None else int(np.count_nonzero(welded >= 0))
 
@@ -198,5 +198,5 @@ def _columns(analysis: Result) -> dict[str, ColumnStatistics]:
 
 
 def _plain(values: Any) -> list[Any]:
-    """Lists for JSON, with None for what is undefined: a number that is none, a vector without a component."""
+    """Lists for JSON, with None for an undefined number, or a vector with an undefined component."""
     return [vector(map(or_none, row)) if isinstance(row, list) else or_none(row) for row in values.tolist()]

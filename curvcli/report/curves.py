@@ -1,4 +1,4 @@
-"""What is told of curves, as JSON: a row per curve, the identities that hold along them, and what was accepted."""
+"""Report of curves as JSON: a row per curve, the identities along them, and notices."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .model import CheckRow, Input, Remark, input_of, remarks, vector
 
 Vector = list[float | None] | None
 
-# Identities are listed curve by curve up to this many curves; beyond, one line each and those that fail.
+# Up to this many curves, identities are listed curve by curve; beyond, one line each and those that fail.
 LISTED_CURVES = 100
 
 
@@ -62,7 +62,7 @@ class CurveRow(msgspec.Struct):
 
 
 class LinkRow(msgspec.Struct):
-    """A pair of closed curves and their linking number; null where they touch or the double sum was refused."""
+    """Pair of closed curves and their linking number; null where they touch or the double sum was refused."""
 
     a: int
     b: int
@@ -73,7 +73,7 @@ class LinkRow(msgspec.Struct):
 class CurveReport(msgspec.Struct):
     """The report of `curvcli curves`.
 
-    links: of up to 100 closed curves every pair, of more those whose boxes meet; the linking number of all others is 0.
+    links: of up to 100 closed curves every pair; of more, those whose boxes meet: all others have linking number 0.
     """
 
     schema_version: int
@@ -88,7 +88,7 @@ class CurveReport(msgspec.Struct):
 
 
 def model(measures: CurveMeasures, *, weld: str = "none", unit: str | None = None) -> CurveReport:
-    """The report of a set of curves."""
+    """Build the report of a set of curves."""
     file = measures.found.file
     return CurveReport(
         schema_version=1,
@@ -112,7 +112,7 @@ def rows(measures: CurveMeasures) -> list[CurveRow]:
 
 
 def _values(column: Any) -> list[Any]:
-    """A column as plain values, None where undefined."""
+    """Column as plain values, None where undefined."""
     if isinstance(column, Labels):
         return [column.names[code] for code in column.codes.tolist()]
     if column.dtype.kind != "f":

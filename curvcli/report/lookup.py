@@ -1,4 +1,4 @@
-"""One value of a report by its path, for shell scripts."""
+"""Lookup of one value of a report by its path, for shell scripts."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from .quantities import public, smallest_preset
 
 
 def look_up(report: dict[str, Any], path: str) -> str:
-    """The value at a dotted path as text: numbers in their shortest form, `null` where undefined, JSON for the rest.
+    """Value at a dotted path as text: numbers in their shortest form, `null` where undefined, JSON for the rest.
 
-    Words are on one line, with what cannot be printed escaped; JSON has them as they are.
+    Words are on one line, with characters that cannot be printed escaped; JSON has them as they are.
 
     Members of lists are named by index, or by a `name` or `code` that is no index: `checks.gauss_bonnet.status`,
     `components.0`.
-    Errors: LackingError for a path that leads nowhere, with the keys there are, or the passes that a key needs.
+    Errors: LackingError for a path without a value, with the existing keys, or the passes that a key needs.
     """
     value: Any = report
     walked = ""
@@ -43,13 +43,13 @@ def _members(value: Any) -> dict[str, Any]:
 
 
 def _why_not(report: dict[str, Any], value: Any, walked: str, key: str) -> str:
-    """What there is instead of a key, or which passes add it."""
+    """Message for a missing key: the existing keys, or the passes that add it."""
     if value in ([], {}):
         return f"{walked} is empty"
     members = _members(value)
     if not members:
         return f"{walked} is a single value"
-    # Only the report of analyze has passes to choose.
+    # Only the report of analyze depends on chosen passes.
     if "topology" in report and (added := _added_by(key, members, walked)):
         return f"is not computed; {added} adds it"
     listing = f"`--get {walked}` shows them" if walked else "`--json` shows them"
@@ -57,7 +57,7 @@ def _why_not(report: dict[str, Any], value: Any, walked: str, key: str) -> str:
 
 
 def _added_by(key: str, members: dict[str, Any], walked: str) -> str | None:
-    """The passes that add a key to a report; None for one that it never has."""
+    """Passes that add a key to a report; None for a key that no pass adds."""
     if "topology" in members:
         return "-p paper" if key in Piece.__struct_fields__ and key != "name" else None
     for quantity in public():

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Range(msgspec.Struct):
-    """Smallest and largest value of a column, null where it has none, and how many are null."""
+    """Smallest and largest value of a column, null if it has none, and the number of nulls."""
 
     min: float | None
     max: float | None
@@ -25,7 +25,7 @@ class Range(msgspec.Struct):
 
 
 class Turned(msgspec.Struct):
-    """How many faces keep the way up of most of their patch, are turned over, and are neither: see `orientation`."""
+    """Number of faces that keep the side of most of their patch, are turned over, or are neither: see `orientation`."""
 
     kept: int
     turned_over: int
@@ -33,7 +33,7 @@ class Turned(msgspec.Struct):
 
 
 class Harmonic(msgspec.Struct):
-    """The largest |∇_p E(f)| off the boundary, its vertex, and what rounding alone can make of it there."""
+    """The largest |∇_p E(f)| off the boundary, its vertex, and the bound on its rounding."""
 
     residual_max: float | None
     vertex: int | None
@@ -64,7 +64,7 @@ class MapReport(msgspec.Struct):
 
 
 def model(f: SurfaceMap) -> MapReport:
-    """The report of a map."""
+    """Build the report of a map."""
     residual, vertex, rounding = f.harmonic
     notices = [*f.source.notices, *f.image.notices, *f.notices]
     image = input_of(f.image.file, f.image.n_vertices, f.image.n_faces)
@@ -90,7 +90,7 @@ def model(f: SurfaceMap) -> MapReport:
 
 
 def build(f: SurfaceMap) -> dict[str, Any]:
-    """The report of a map as plain Python values."""
+    """Build the report of a map as plain Python values."""
     found: dict[str, Any] = msgspec.to_builtins(model(f))
     return found
 

@@ -1,4 +1,4 @@
-"""The report as Markdown: short enough for a pull request, in the dialect of GitHub."""
+"""Report as Markdown: short enough for a pull request, in the dialect of GitHub."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _TOPOLOGY = {
 
 
 def markdown(report: Report, command: str | None = None) -> str:
-    """One line of verdict; checks, failing first; warnings with the way out; topology, totals, and how it was made."""
+    """One line of verdict; checks, failing first; warnings with hints; topology, totals, conventions, command."""
     failed = any(row.status == "fail" for row in report.checks)
     name = _code({None: "arrays in memory", "-": "stdin"}.get(report.input.path, str(report.input.path)))
     parts = [
@@ -49,7 +49,7 @@ def markdown(report: Report, command: str | None = None) -> str:
 
 
 def _checks(report: Report) -> str:
-    """The whole, and what fails anywhere; the rest is counted."""
+    """Table of the checks of the whole, and of all that fail; the rest is counted."""
     shown = [row for row in report.checks if row.scope == "whole" or row.status == "fail"]
     rows = [
         (
@@ -95,14 +95,14 @@ def _table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
 
 
 def _cell(text: str) -> str:
-    """A pipe belongs to the cell, in code too."""
+    """Cell of a table; a pipe is escaped, in code too."""
     return re.sub(r"(?<!\\)[|]", r"\|", text)
 
 
 def _text(text: str) -> str:
-    """A sentence that Markdown, HTML and a table take as it is; it mentions no person, no issue and no address.
+    """Sentence for Markdown, HTML and tables: it creates no mention, no issue reference and no link.
 
-    What stands between backticks is code.
+    Text between backticks is code.
     """
     parts = escape_text(text).split("`")
     if len(parts) % 2 == 0:
@@ -116,7 +116,7 @@ def _plain(text: str) -> str:
 
 
 def _code(text: str) -> str:
-    """A name as it is, whatever it holds."""
+    """Name as code, with any characters."""
     fence = "`" * (1 + max((len(run) for run in re.findall("`+", text)), default=0))
     inner = escape_text(text)
     return f"{fence} {inner} {fence}" if "`" in inner or inner != inner.strip() else f"{fence}{inner}{fence}"

@@ -1,4 +1,4 @@
-"""The report as JSON: one typed model from which encoding, decoding and the JSON Schema follow."""
+"""Report as JSON: one typed model from which encoding, decoding and the JSON Schema follow."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ if TYPE_CHECKING:
 
 Value = float | list[float | None] | None
 
-# Of a polynomial of degree 3, lowest power first.
+# For a polynomial of degree 3, lowest power first.
 POWERS = 4
 Coefficients = Annotated[list[float | None], msgspec.Meta(min_length=POWERS, max_length=POWERS)]
 
-# Of the analysis, in the order of the report.
+# Conventions of the analysis, in the order of the report.
 CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals", "noise")
 
 
 def vector(parts: Iterable[float | None]) -> list[float | None] | None:
-    """A vector by its components, null where it has none."""
+    """Vector from its components; null if a component is."""
     listed = list(parts)
     return None if all(part is None for part in listed) else listed
 
 
 class Input(msgspec.Struct):
-    """Where the mesh came from; null for arrays made in memory."""
+    """Source of the mesh; null for arrays made in memory."""
 
     path: str | None
     sha256: str | None
@@ -122,7 +122,7 @@ class CheckRow(msgspec.Struct):
 
 
 class Remark(msgspec.Struct):
-    """Something accepted but worth knowing."""
+    """Notice about the input or the results, with its count, first places and hint."""
 
     code: str
     count: int
@@ -132,19 +132,19 @@ class Remark(msgspec.Struct):
 
 
 def remarks(notices: Iterable[Notice]) -> list[Remark]:
-    """What a report says of notices."""
+    """Notices in the form of the report."""
     return [Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in notices]
 
 
 def input_of(file: MeshFile | None, vertices: int, faces: int) -> Input:
-    """What a report says of the file; vertices: rows of the table, faces: the polygons where there is no file."""
+    """Input of the report; vertices: rows of the table, faces: polygons if there is no file."""
     if file is None:
         return Input(None, None, None, vertices, faces)
     return Input(file.path, file.sha256, file.format, vertices, file.polygons)
 
 
 class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
-    """The report of `curvcli analyze`; what was not computed is absent, what is undefined is null."""
+    """The report of `curvcli analyze`; values not computed are absent, undefined values are null."""
 
     schema_version: int
     curvcli: str
@@ -167,12 +167,12 @@ class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
 
 
 def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
-    """JSON text; numbers are the shortest that read back to the same double, what cannot be printed is escaped."""
+    """JSON text; numbers are the shortest that read back to the same double, unprintable characters are escaped."""
     return escape_json(msgspec.json.format(one_line(report), indent=2)) + b"\n"
 
 
 def one_line(value: Any) -> bytes:
-    """JSON text on one line; halves of characters, which names of files that are no text hold, are escaped."""
+    """JSON text on one line; lone surrogates, from file names that are not UTF-8, are escaped."""
     try:
         return msgspec.json.encode(value)
     except UnicodeEncodeError:
@@ -195,7 +195,7 @@ def _without_halves(text: str) -> str:
 
 
 def schema() -> bytes:
-    """The JSON Schema of the report."""
+    """JSON Schema of the report."""
     from .quantities import public, unmarked
 
     found = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}

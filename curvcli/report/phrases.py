@@ -1,4 +1,4 @@
-"""The report in words: what every text and every page says about a mesh in the same way."""
+"""Phrases of the report, shared by all texts and pages about a mesh."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 _RANK = {"fail": 0, "pass": 1, "not_applicable": 2}
 RESULTS = {"fail": "fails", "pass": "holds", "not_applicable": "does not apply"}
 
-# Rows of checks that pass on pieces, and rows of pieces, that a page shows before it names the table with all of them.
+# Limits of the rows of passing checks on pieces, and of rows of pieces, on a page; beyond them it names the table.
 SHOWN_ROWS = 100
 
 
 def verdict(report: Report) -> str:
-    """How many identities hold, fail and do not apply, and how many warnings there are, in one line."""
+    """Numbers of identities that hold, fail and do not apply, and of warnings, in one line."""
     counts = {status: sum(row.status == status for row in report.checks) for status in _RANK}
     parts = []
     if counts["fail"]:
@@ -32,7 +32,7 @@ def verdict(report: Report) -> str:
 
 
 def shape(topology: Topology) -> str:
-    """What the surface is: its pieces, its boundary, its genus."""
+    """Shape of the surface: its pieces, its boundary, its genus."""
     words = [
         "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge"),
         "manifold" if topology.manifold else "not manifold",
@@ -49,7 +49,7 @@ def shape(topology: Topology) -> str:
 
 
 def conventions(report: Report) -> dict[str, str]:
-    """What was chosen, in words for each option; of options that only some columns know, those that were used."""
+    """Options chosen, in words; of options that only some columns depend on, those that were used."""
     chosen = report.conventions
     turned = "closed patches that were inside out are turned" if chosen["orient"] == "outward" else "as the file has it"
     found = {
@@ -68,19 +68,19 @@ def conventions(report: Report) -> dict[str, str]:
 
 
 def failing_first(rows: Iterable[CheckRow]) -> list[CheckRow]:
-    """The checks in the order in which they matter."""
+    """Checks by severity, failing first."""
     return sorted(rows, key=lambda row: _RANK[row.status])
 
 
 def listed(rows: Sequence[CheckRow]) -> list[CheckRow]:
-    """Failing first; of the checks of pieces that pass, none beyond `SHOWN_ROWS` rows in all."""
+    """Checks, failing first; those that pass on pieces are cut at `SHOWN_ROWS` rows in all."""
     kept = [row for row in rows if row.scope == "whole" or row.status == "fail"]
     rest = [row for row in rows if row.scope != "whole" and row.status != "fail"]
     return failing_first([*kept, *rest[: max(0, SHOWN_ROWS - len(kept))]])
 
 
 def number(value: Any, digits: int = 6) -> str:
-    """A number, a vector or a word of a table; `undefined` where there is none."""
+    """Number, vector or word of a table; `undefined` for null."""
     if value is None:
         return "undefined"
     if isinstance(value, bool):
@@ -93,7 +93,7 @@ def number(value: Any, digits: int = 6) -> str:
 
 
 def shell_quoted(arguments: Iterable[str]) -> str:
-    """The arguments as a line for a shell; what cannot be shown stands in $'…' with escapes."""
+    """Arguments as a line for a shell; unprintable ones are in $'…' with escapes."""
     return " ".join(map(_quoted, arguments))
 
 

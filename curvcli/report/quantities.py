@@ -14,7 +14,7 @@ _BOLD = str.maketrans("", "", "*")
 
 
 class Facts(TypedDict):
-    """Everything declared about a quantity, under the names used everywhere."""
+    """Declaration of a quantity, under the names used everywhere."""
 
     name: str
     symbol: str
@@ -42,23 +42,23 @@ def public() -> list[Quantity]:
 
 
 def find(name: str) -> Quantity:
-    """A quantity by its name or by the name of one of its columns, of vertices where those of edges are called so too.
+    """Find a quantity by its name or by the name of one of its columns; vertices come before edges.
 
     Errors: UsageError with the nearest names.
     """
     known = {column: quantity for quantity in reversed(public()) for column in (quantity.name, *quantity.columns)}
     if name not in known:
-        raise UsageError(f"no quantity is called {name!r}{suggestion(name, known, '`curvcli passes` lists them')}")
+        raise UsageError(f"unknown quantity {name!r}{suggestion(name, known, '`curvcli passes` lists them')}")
     return known[name]
 
 
 def unmarked(text: str) -> str:
-    """The text of a declaration without the marks of Markdown that make vectors bold."""
+    """Text of a declaration without the Markdown that makes vectors bold."""
     return text.translate(_BOLD)
 
 
 def facts(quantity: Quantity) -> Facts:
-    """The facts of a quantity."""
+    """Facts of a quantity."""
     return {
         "name": quantity.name,
         "symbol": unmarked(quantity.symbol),
@@ -81,7 +81,7 @@ def facts(quantity: Quantity) -> Facts:
 
 
 def _needs(name: str) -> list[str]:
-    """What a reader can look up of what it is computed from: in place of a hidden quantity what that needs."""
+    """Public quantities that it is computed from; a hidden one is replaced by its own needs."""
     found: list[str] = []
     for need in passes.provider(name).needs:
         if need == CELL_AREA or (need not in NO_QUANTITIES and passes.quantity(need).public):
@@ -92,18 +92,18 @@ def _needs(name: str) -> list[str]:
 
 
 def smallest_preset(quantity: Quantity) -> str:
-    """The smallest preset that has it."""
+    """Smallest preset that has the quantity."""
     presets = ("core", "paper", "estimates")
     return next((preset for preset in presets if quantity.name in resolve([preset])), "all")
 
 
 def as_data(name: str | None) -> Any:
-    """The facts of one quantity, or of all."""
+    """Facts of one quantity, or of all."""
     return facts(find(name)) if name else [facts(quantity) for quantity in public()]
 
 
 def _reversed(quantity: Quantity) -> str:
-    """What the column becomes when all faces are turned round, where it does not stay."""
+    """Change of the column when all faces are reversed; empty if it does not change."""
     if quantity.parity == "even" and not quantity.partner:
         return ""
     return f"becomes {'−' if quantity.parity == 'odd' else ''}`{quantity.partner or quantity.name}`"
@@ -114,12 +114,12 @@ _MEAN = {0: "", 1: "halved", 2: "quartered"}
 
 
 def page() -> str:
-    """The documentation page of all quantities, in Markdown."""
+    """Documentation page of all quantities, in Markdown."""
     parts = [
         "# Quantities\n",
         "Made by `curvcli passes --markdown`. H = κ₁ + κ₂, positive where the surface is convex seen from the side its "
-        "normal points to. A measure is integrated over the star of a vertex; a density is per area. Where no face "
-        "uses a vertex, everything but its status is null.\n",
+        "normal points to. A measure is integrated over the star of a vertex; a density is per area. At a vertex that "
+        "no face uses, everything but its status is null.\n",
     ]
     element = ""
     for quantity in public():

@@ -1,4 +1,4 @@
-"""Statistics of one column, nulls left out and counted."""
+"""Statistics of one column; nulls are left out and counted."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..support.blocks import slices
 
 
 class ColumnStatistics(msgspec.Struct):
-    """What a column is and how its values are spread; percentiles interpolate linearly, std is of the population."""
+    """Distribution of a column; percentiles interpolate linearly, std is of the population."""
 
     symbol: str
     unit: str
@@ -68,12 +68,12 @@ def statistics(
 
 
 def _sum(part: Callable[[slice], NDArray[np.float64]], count: int) -> float:
-    """The sum of numbers that are made a block at a time."""
+    """Sum of numbers that are computed a block at a time."""
     return math.fsum(float(part(block).sum()) for block in slices(count))
 
 
 def _quantile(ordered: NDArray[np.float64], share: float, size: float) -> float:
-    """The value below which a share of the ordered values lies; size: what they are divided by meanwhile."""
+    """Value below which a share of the ordered values lies; size: their common divisor."""
     place = share * (len(ordered) - 1)
     below = int(place)
     first, second = ordered[below] / size, ordered[min(below + 1, len(ordered) - 1)] / size

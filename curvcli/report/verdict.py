@@ -1,4 +1,4 @@
-"""What the identities of a report prove about the mesh, and what they cannot."""
+"""Meaning of a report's identities: properties of the mesh that they prove, and properties that they cannot prove."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from .model import CheckRow, Report
 
 
 def proof(report: Report) -> str:
-    """One or two sentences for people: what holds, what is not tested, what fails, and what no identity can see."""
+    """One or two sentences for people: identities that hold, fail or are not tested, and their limits."""
     failed = [row for row in report.checks if row.status == "fail"]
     if failed:
         return _distrust(failed)
@@ -23,12 +23,12 @@ def proof(report: Report) -> str:
 
 
 def holds(report: Report) -> bool:
-    """Whether no identity fails."""
+    """True if no identity fails."""
     return all(row.status != "fail" for row in report.checks)
 
 
 def _distrust(failed: list[CheckRow]) -> str:
-    """What a failure means: rounding is allowed for, so it is in the numbers."""
+    """Sentence on failures: they exceed the rounding bound, so the numbers are wrong."""
     names = sorted({row.name for row in failed})
     scopes = sorted({row.scope for row in failed} - {"whole"})
     where = f" on {scopes[0]}" if len(scopes) == 1 else f" on {len(scopes):,} pieces" if scopes else ""

@@ -1,4 +1,4 @@
-"""Simplicial n-manifolds in E^d: how they hang together, what shape their simplices have, and their curvature."""
+"""Simplicial n-manifolds in E^d: combinatorics, shape of the simplices, and curvature."""
 
 from .manifold import PolyhedralManifold
 

@@ -1,4 +1,4 @@
-"""Simplices in E^d by their own measure: orthonormal frames, conormals of the ridges, heights."""
+"""Geometry of simplices in E^d: orthonormal frames, conormals of the ridges, heights."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Frames:
 
     frames: (C, n, d) orthonormal rows that span each simplex, right-handed with the order of its corners.
     inward: (C, n + 1, n) in these frames, the unit conormal of the ridge opposite each corner, towards that corner.
-    stretch: (C,) longest edge over smallest height: by how much rounding of the points is magnified in an angle.
+    stretch: (C,) longest edge over smallest height: the factor by which angles magnify rounding of the points.
     """
 
     frames: Floats
@@ -44,7 +44,7 @@ def frames(points: Floats, simplices: Ints) -> Frames:
     edges = points[simplices[each, corner[:, 1:]]] - points[simplices[each, parent]]
     q, r = np.linalg.qr(edges.swapaxes(1, 2))
     sign = np.where(np.diagonal(r, axis1=1, axis2=2) < 0, -1.0, 1.0)
-    # Each corner was added to those before it, so the tree's edges have the orientation of the corners in that order.
+    # Each corner was added after its predecessor, so the tree's edges are oriented as the corners in that order.
     sign[odd(corner), -1] *= -1
     q, r = q * sign[:, None, :], r * sign[:, :, None]
     incidence = np.zeros((count, n, corners))

@@ -1,4 +1,4 @@
-"""Curvature of a simplicial n-manifold in E^d: it sits at the faces of codimension two, as a rotation about them.
+"""Curvature of a simplicial n-manifold in E^d, located at the faces of codimension two as a rotation about them.
 
 >>> import numpy as np
 >>> from itertools import combinations
@@ -41,8 +41,8 @@ class PolyhedralManifold:
         self.points, self.simplices = _checked(points, simplices)
         self.n, self.d = self.simplices.shape[1] - 1, self.points.shape[1]
         self.complex = Complex(self.simplices)
-        _ = self.complex.rounds  # what is no manifold is refused at once
-        # The corners' own geometry, rows sorted as in the complex.
+        _ = self.complex.rounds  # refuses a complex that is no manifold
+        # Geometry of the corners, rows sorted as in the complex.
         used = self.points[np.unique(self.simplices)]
         size = float(np.abs(used / 2 - used[0] / 2).max())
         self._points = np.ldexp(self.points, -int(np.frexp(size)[1]))
@@ -72,7 +72,7 @@ class PolyhedralManifold:
     def rotations(self) -> Floats:
         """(R, n, n) Levi-Civita transport across each ridge, from the frame of its first simplex to its second's.
 
-        Unfolding about the ridge: what lies in the ridge stays, the outward conormal of the one simplex becomes the
+        Unfolding about the ridge: directions in the ridge stay, the outward conormal of the one simplex becomes the
         inward conormal of the other. Orthogonal; of determinant +1 where the two simplices agree in orientation. Null
         on the boundary.
         """
@@ -90,7 +90,7 @@ class PolyhedralManifold:
     def transport(self, path: Sequence[int]) -> Floats:
         """(n, n) parallel transport along a path of simplices, from the frame of its first to that of its last.
 
-        Errors: UsageError for a simplex that does not exist, or where two that follow one another share no ridge.
+        Errors: UsageError for a simplex that does not exist, or two consecutive ones that share no ridge.
         """
         outside = [c for c in path if not 0 <= c < len(self.simplices)]
         if outside or not len(path):
@@ -167,8 +167,8 @@ class PolyhedralManifold:
         """(H, n, n) parallel transport once about each interior hinge, in the frame of its lowest simplex; null on the
         boundary.
 
-        The way is counterclockwise about the hinge's sorted vertices as that simplex is oriented. It is the rotation
-        about the hinge by its defect, in the sense of the way.
+        The path is counterclockwise about the hinge's sorted vertices as that simplex is oriented. The holonomy is the
+        rotation about the hinge by its defect, in the sense of the path.
         """
         size = self.n + 1
         turns, start = self.complex.rounds
@@ -178,7 +178,7 @@ class PolyhedralManifold:
         turn = np.tile(np.eye(self.n), (len(inside), 1, 1))
         lengths = self.valence[inside]
         for step in range(int(lengths.max(initial=0))):
-            # The longest rounds come first, so those still under way are a prefix.
+            # The longest rounds come first, so those still open are a prefix.
             active = int(np.searchsorted(-lengths, -step, side="left"))
             at = turns[start[inside[:active]] + step]
             flag = at // size // size * size + at % size
@@ -192,7 +192,7 @@ class PolyhedralManifold:
 
     @cached_property
     def _planes(self) -> tuple[Floats, Floats]:
-        """(H, n) twice: the plane across each hinge in the frame where its round starts, x along the ridge by which the
+        """(H, n) twice: the plane across each hinge in the frame where its round starts, x along the ridge where the
         round enters that simplex, y into it.
         """
         size = self.n + 1
@@ -200,14 +200,14 @@ class PolyhedralManifold:
         first = turns[start[:-1]]
         c, i, j = first // size**2, first // size % size, first % size
         y, x = self._inward[c, i], self._inward[c, j]
-        for _ in range(2):  # the second pass removes what rounding left of y where the angle is flat
+        for _ in range(2):  # the second pass removes the rounding error of y where the angle is flat
             x = x - (x * y).sum(axis=1)[:, None] * y
             x = x / np.sqrt((x * x).sum(axis=1))[:, None]
         return x, y
 
     @cached_property
     def holonomy_angle(self) -> Floats:
-        """(H,) rotation angle of the holonomy in the sense of its way, in (−π, π]; null on the boundary."""
+        """(H,) rotation angle of the holonomy in the sense of its path, in (−π, π]; null on the boundary."""
         (x, y), turn = self._planes, self.holonomy
         turned_x, turned_y = ((turn @ side[:, :, None])[:, :, 0] for side in (x, y))
         sine = (y * turned_x).sum(axis=1) - (x * turned_y).sum(axis=1)
@@ -227,7 +227,7 @@ class PolyhedralManifold:
         return np.asarray(np.sqrt((gap * gap).sum(axis=(1, 2))))
 
     def check(self) -> Check:
-        """`holonomy`: about every interior hinge it is the rotation by the defect; told of the worst hinge.
+        """`holonomy`: about every interior hinge it is the rotation by the defect; reports the worst hinge.
 
         The bound is (16 + n²) ε times the sum over the simplices there of longest edge over smallest height.
         """
@@ -252,7 +252,7 @@ class PolyhedralManifold:
 
 
 def _checked(points: ArrayLike, simplices: ArrayLike) -> tuple[Floats, Ints]:
-    """The arrays, once they are known to be a complex of simplices of dimension 2 or more."""
+    """The arrays, after a check that they form a complex of simplices of dimension 2 or more."""
     given, rows = np.asarray(points), np.asarray(simplices)
     if given.ndim != 2 or given.dtype.kind not in "fiu":
         raise InputError(f"points have shape {given.shape} and type {given.dtype}, expected numbers of shape (V, d)")

@@ -1,4 +1,4 @@
-"""How the simplices of a manifold hang together: ridges, faces of codimension two, and the way round each of them.
+"""Combinatorics of a simplicial manifold: ridges, faces of codimension two, and the cycle of simplices about each.
 
 Rows of corners are kept sorted, so that a face has the same row in every simplex. A ridge is the face opposite a corner
 j; a hinge, the face of codimension two opposite two corners i, j. A turn (c, i, j) goes through simplex c about that
@@ -22,8 +22,8 @@ Mask = NDArray[np.bool_]
 class Complex:
     """The combinatorics of a simplicial n-manifold with or without boundary, n ≥ 2.
 
-    simplices: (C, n + 1) vertices; corners: the same with every row sorted; order: (C, n + 1) where each corner of the
-    sorted row stands in the row given.
+    simplices: (C, n + 1) vertices; corners: the same with every row sorted; order: (C, n + 1) position of each corner
+    of the sorted row in the row given.
     Errors: InputError for a repeated corner or simplex, a ridge of more than two simplices, or a hinge whose simplices
     are not one cycle or path.
     """
@@ -139,7 +139,7 @@ class Complex:
 
     @cached_property
     def rounds(self) -> tuple[Ints, Ints]:
-        """The turns about each hinge one after the other, and where those of each hinge begin, (H + 1,).
+        """Turns about each hinge in order, and the start of each hinge's turns, (H + 1,).
 
         A round starts in the lowest simplex of an interior hinge, at an end of a boundary hinge's path, and goes
         counterclockwise about the hinge's sorted vertices in the orientation of that simplex as given.
@@ -176,11 +176,11 @@ class Complex:
         return first % size
 
     def _counterclockwise(self, turns: Ints) -> Mask:
-        """Whether (hinge, corner j, corner i) is an even permutation of the simplex as given."""
+        """True where (hinge, corner j, corner i) is an even permutation of the simplex as given."""
         size = self.n + 1
         flag, j = turns // size, turns % size
         c, i = flag // size, flag % size
-        # Moving corners i and j of the sorted row to its end, past those between.
+        # Corners i and j of the sorted row move to its end, past those between.
         swaps = (self.n - i) + (self.n - j) - 1 + (i < j)
         return np.asarray((swaps + odd(self.order)[c]) % 2 == 0)
 
@@ -203,7 +203,7 @@ def number_rows(rows: Ints) -> tuple[Ints, Ints]:
 
 
 def odd(permutations: Ints) -> Mask:
-    """(C,) whether each row, a permutation of 0 … n, is odd."""
+    """(C,) true where a row, a permutation of 0 … n, is odd."""
     inversions = np.zeros(len(permutations), np.int64)
     for i, j in combinations(range(permutations.shape[1]), 2):
         inversions += permutations[:, i] > permutations[:, j]

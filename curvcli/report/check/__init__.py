@@ -1,1 +1,1 @@
-"""Verdicts of a check: requirements, assertions and the formats they are written in."""
+"""Verdicts of a check: requirements, assertions and output formats."""

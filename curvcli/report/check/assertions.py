@@ -51,17 +51,17 @@ class Assertion:
 
     @property
     def name(self) -> str:
-        """As it is written after --assert."""
+        """Text of the assertion as after --assert."""
         return f"{self.statistic}({self.column}) {self.comparison} {format_number(self.bound)}"
 
     def judge(self, analysis: Result) -> tuple[bool, float | None, str]:
-        """Whether it holds, the statistic's value (None where undefined), and both in words."""
+        """True if it holds, the statistic's value (None where undefined), and a message with both."""
         values, area, used = self._values(analysis)
         value = self._value(values, area, used)
         call = f"{self.statistic}({self.column})"
         if value is None:
             known = used & ~np.isnan(values)
-            some = f"no double holds it, or its {_PLURALS[self.quantity.on]} have no area"
+            some = f"it is beyond the range of doubles, or its {_PLURALS[self.quantity.on]} have no area"
             none = f"no {self.quantity.on} has a value"
             return False, None, f"{call} is undefined: {some if known.any() else none}"
         held = OPERATORS[self.comparison](value, self.bound)
@@ -93,7 +93,7 @@ class Assertion:
         return value if value is not None and math.isfinite(value) else None
 
     def _place(self, analysis: Result, values: NDArray[np.float64], used: NDArray[np.bool_]) -> str:
-        """Where the extreme value is taken."""
+        """Place of the extreme value."""
         if self.statistic not in ("min", "max", "absmax"):
             return ""
         shown = np.abs(values) if self.statistic == "absmax" else values
@@ -124,7 +124,7 @@ def _at(scales: tuple[Scale, ...]) -> list[Quantity]:
 def parse(text: str, scales: tuple[Scale, ...] = ()) -> Assertion:
     """An assertion from `STAT(COLUMN) OP NUMBER`.
 
-    Errors: UsageError that names the part which does not fit, with the nearest names.
+    Errors: UsageError that names the invalid part, with the nearest names.
     """
     match = _SHAPE.fullmatch(text)
     if match is None:
@@ -134,7 +134,7 @@ def parse(text: str, scales: tuple[Scale, ...] = ()) -> Assertion:
     if comparison not in OPERATORS:
         raise UsageError(f"assertion {text!r}: no comparison {comparison!r}, expected one of {' '.join(OPERATORS)}")
     if not _NUMBER.fullmatch(bound) or not math.isfinite(float(bound)):
-        raise UsageError(f"assertion {text!r}: {bound!r} is not a number that a double holds")
+        raise UsageError(f"assertion {text!r}: {bound!r} is not a number in the range of doubles")
     quantity = _quantity(text, column, scales)
     if statistic == "area_mean" and quantity.on == "edge":
         raise UsageError(f"assertion {text!r}: edges have no area to weigh {column} by; use mean")
@@ -149,7 +149,7 @@ def _quantity(text: str, column: str, scales: tuple[Scale, ...]) -> Quantity:
         raise UsageError(f"assertion {text!r}: {column} is a vector; name one of its components {components}")
     _known(text, "column", column, known)
     if known[column].labels:
-        raise UsageError(f"assertion {text!r}: {column} holds words, not numbers")
+        raise UsageError(f"assertion {text!r}: {column} has words, not numbers")
     return known[column]
 
 

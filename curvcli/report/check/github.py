@@ -1,4 +1,4 @@
-"""The outcome of `curvcli check` as workflow commands of GitHub Actions, which annotate the files of a change."""
+"""Outcome of `curvcli check` as workflow commands of GitHub Actions, which annotate the files of a change."""
 
 from __future__ import annotations
 
@@ -10,15 +10,14 @@ from ..terminal.check import summary
 from .lines import all_failures, warning, warnings
 from .model import CheckReport
 
-# A workflow command ends with its line; in properties the colon and the comma have a meaning too.
+# A workflow command ends at the end of its line; in properties, colon and comma are special too.
 _DATA = str.maketrans({"%": "%25", "\r": "%0D", "\n": "%0A"})
 _PROPERTY = _DATA | str.maketrans({":": "%3A", ",": "%2C"})
 
 
 def write_github(report: CheckReport) -> bytes:
-    """An `::error` for each failure, the first of each check and a count of the others; a `::warning` for each warning
-    that the text report shows; a `::notice` of a configuration file
-    that has to do with the verdict; a line that sums up."""
+    """Write an `::error` for each failure, the first of each check and a count of the others; a `::warning` for each
+    warning that the text report shows; a `::notice` of a configuration file that the verdict depends on; a summary."""
     failed, others = all_failures(report.meshes)
     lines = [_command("error", f"curvcli {one.outcome.label}", one.text, one.mesh.path) for one in failed]
     if others:

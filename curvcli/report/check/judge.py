@@ -1,4 +1,4 @@
-"""The gate: which identities, requirements and assertions a mesh has to pass, and what came of it."""
+"""Verdict of `curvcli check`: the identities, requirements and assertions that a mesh has to pass, and the outcomes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ READABLE = "The mesh can be read and is a surface"
 
 @dataclass(frozen=True)
 class Plan:
-    """What is checked of every mesh."""
+    """Checks of every mesh."""
 
     identities: tuple[str, ...]
     requirements: tuple[Requirement, ...]
@@ -38,7 +38,7 @@ class Plan:
 
     @property
     def rules(self) -> list[Rule]:
-        """Everything that is checked, with what a pass proves."""
+        """Every check, with the meaning of a pass."""
         return [
             Rule("input", INPUT, READABLE),
             *(Rule(name, IDENTITY, _statement(name)) for name in self.identities),
@@ -53,7 +53,7 @@ def plan(
     asserted: Iterable[str] = (),
     scales: tuple[Scale, ...] = (),
 ) -> Plan:
-    """Every identity and the default requirements, plus `require` and `asserted`, without what is allowed to fail.
+    """All identities and the default requirements, plus `require` and `asserted`, without those in `allow`.
 
     require, allow: names or comma lists of names. asserted: `STAT(COLUMN) OP NUMBER`. scales: at which estimates are
     made; of several, each has columns of its own.
@@ -64,7 +64,7 @@ def plan(
     allowed = {part.strip() for text in allow for part in text.split(",")}
     for name in sorted(allowed.difference(known)):
         way_out = suggestion(name, known, "`curvcli help checks` lists them")
-        raise UsageError(f"cannot allow {name!r}: no requirement or identity is called so{way_out}")
+        raise UsageError(f"cannot allow {name!r}: no such requirement or identity{way_out}")
     wanted = requirements.parse([*requirements.DEFAULT, *require])
     return Plan(
         tuple(name for name in rules if name not in allowed),
@@ -74,7 +74,7 @@ def plan(
 
 
 def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
-    """Every check of the plan on an analysis that tested the plan's identities."""
+    """Run every check of the plan on an analysis that tested the plan's identities."""
     flaw = requirements.kinds["manifold"].test(analysis.surface)
     given = _given(analysis, chosen)
     outcomes = [
@@ -96,7 +96,7 @@ def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
 
 
 def _of_identity(check: Check, flaw: str) -> Outcome:
-    """flaw: what of the mesh a failure may come from."""
+    """Outcome of an identity. flaw: the defect of the mesh that a failure may come from."""
     match check.status:
         case "pass":
             message = _statement(check.name)
@@ -118,7 +118,7 @@ def _of_identity(check: Check, flaw: str) -> Outcome:
 
 
 def gap(check: Check) -> str:
-    """What a failing identity found: `ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)`."""
+    """Residual of a failing identity: `ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)`."""
     told = rules[check.name].gap if check.name in rules else ""
     name = told or "residual"
     found, sides = check.residual, (check.value, check.expected)
@@ -136,7 +136,7 @@ def _statement(name: str) -> str:
 
 
 def _given(analysis: Result, chosen: Plan) -> dict[str, Any]:
-    """The quantities that the requirements need, and the convention for H."""
+    """Quantities that the requirements need, and the convention for H."""
     needs = {need for one in chosen.requirements for need in one.kind.needs} - {"mean"}
     area, known = analysis.request.area, analysis.columns
     return {**evaluate(passes, analysis.surface, needs, area=area, known=known), "mean": analysis.request.mean}

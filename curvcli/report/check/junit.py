@@ -1,4 +1,4 @@
-"""The outcome of `curvcli check` as JUnit XML: a suite per mesh, a case per check."""
+"""Outcome of `curvcli check` as JUnit XML: a suite per mesh, a case per check."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .model import ERROR, FAIL, NOT_APPLICABLE, CheckedMesh, CheckReport, Outcom
 
 
 class Case(TestCase):
-    """A case that names the file it is about, as GitLab and others show it."""
+    """Test case with a file attribute, which GitLab and others show."""
 
     file = Attr()
 
 
 def write_junit(report: CheckReport) -> bytes:
-    """JUnit XML; checks that do not apply are skipped, a mesh that cannot be read is an error."""
+    """Write JUnit XML; checks that do not apply are skipped, a mesh that cannot be read is an error."""
     document = JUnitXml("curvcli check")
     for mesh in report.meshes:
         suite = TestSuite(escape_text(mesh.path))

@@ -1,4 +1,4 @@
-"""The failures and the warnings of a check as lines: the first of each kind, then a count."""
+"""Failures and warnings of a check as lines: the first of each kind, then a count."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ...support.words import counted, escape_text
 from ..model import Remark
 from .model import FAIL, PASS, CheckedMesh, Outcome, sentence
 
-# Failures of one check of one mesh, failures in all, and warnings in all, as long as -v does not ask for the rest.
+# Limits without -v: failures of one check of one mesh, failures in all, and warnings in all.
 FIRST, MOST, WARNINGS = 5, 100, 20
 
 # Words for the pieces of a mesh, by the first word of a scope.
@@ -18,7 +18,7 @@ _PIECES = {"component": "component", "region": "region"}
 
 @dataclass(frozen=True)
 class Failure:
-    """One line about a mesh: its first outcome, the sentence, and how many outcomes it stands for."""
+    """One line about a mesh: its first outcome, the sentence, and the number of outcomes it stands for."""
 
     mesh: CheckedMesh
     outcome: Outcome
@@ -27,9 +27,9 @@ class Failure:
 
 
 def failures(mesh: CheckedMesh, first: int | None = FIRST) -> Iterator[Failure]:
-    """What fails and what could not be done; of each check the first few, and one line for the others (None: all)."""
+    """Failures and errors; of each check the first few, and one line for the others (None: all)."""
     for outcomes in by_name(mesh.trouble):
-        # One line for the last failure is as short as its count.
+        # A count is no shorter than one more failure.
         most = len(outcomes) if first is None or len(outcomes) <= first + 1 else first
         for outcome in outcomes[:most]:
             yield Failure(mesh, outcome, sentence(mesh, outcome))
@@ -41,7 +41,7 @@ def failures(mesh: CheckedMesh, first: int | None = FIRST) -> Iterator[Failure]:
 def all_failures(
     meshes: Iterable[CheckedMesh], first: int | None = FIRST, most: int | None = MOST
 ) -> tuple[list[Failure], str]:
-    """The failures of several meshes, and a sentence about those beyond the first `most` lines (None: all)."""
+    """Failures of several meshes, and a sentence about those beyond the first `most` lines (None: all)."""
     lines = [line for mesh in meshes for line in failures(mesh, first)]
     if most is None or len(lines) <= most:
         return lines, ""
@@ -51,7 +51,7 @@ def all_failures(
 
 
 def by_name(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
-    """The outcomes of each check, in the order of their first."""
+    """Outcomes by check, in the order of the first of each."""
     groups: dict[tuple[str, str], list[Outcome]] = {}
     for outcome in outcomes:
         groups.setdefault((outcome.name, outcome.status), []).append(outcome)
@@ -59,7 +59,7 @@ def by_name(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
 
 
 def scopes(outcomes: Sequence[Outcome], more: str = "") -> str:
-    """Where the outcomes of one check stand: `whole, 100 components`."""
+    """Scopes of the outcomes of one check: `whole, 100 components`."""
     kinds: dict[str, int] = {}
     parts = []
     for outcome in outcomes:
@@ -76,7 +76,7 @@ def scopes(outcomes: Sequence[Outcome], more: str = "") -> str:
 def warnings(
     meshes: Sequence[CheckedMesh], most: int | None = WARNINGS
 ) -> tuple[list[tuple[CheckedMesh, Remark]], int]:
-    """The warnings of a lone mesh, or of those of several that fail (None: of all), and how many are left out."""
+    """Warnings of a lone mesh, or of several meshes that fail (None: of all), and the number left out."""
     chosen = [mesh for mesh in meshes if most is None or len(meshes) == 1 or mesh.status == FAIL]
     found = [(mesh, remark) for mesh in chosen for remark in mesh.warnings]
     kept = found if most is None else found[:most]
@@ -84,7 +84,7 @@ def warnings(
 
 
 def warning(mesh: CheckedMesh, remark: Remark) -> str:
-    """A warning in one line, with the first places and the hint."""
+    """Warning in one line, with the first places and the hint."""
     first = (
         f" (first: {', '.join(escape_text(str(place)) for place in remark.examples[:3])})" if remark.examples else ""
     )
@@ -93,7 +93,7 @@ def warning(mesh: CheckedMesh, remark: Remark) -> str:
 
 
 def meshes_pass(meshes: Sequence[CheckedMesh]) -> str:
-    """How many of the meshes pass, in words."""
+    """Number of meshes that pass, in words."""
     passed = sum(mesh.status == PASS for mesh in meshes)
     if len(meshes) > 1:
         return f"{passed:,} of {len(meshes):,} meshes pass"

@@ -1,4 +1,4 @@
-"""What `curvcli check` found, as data: one outcome per mesh and check; every format is written from it."""
+"""Results of `curvcli check` as data: one outcome per mesh and check; every format is written from it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ...analysis.configuration import Configuration, Configured, configured
 from ...support.words import escape_text
 from ..model import Remark, Value, encode
 
-# What `kind` and `status` can be.
+# Values of `kind` and `status`.
 IDENTITY, REQUIREMENT, ASSERTION, INPUT = "identity", "requirement", "assertion", "input"
 PASS, FAIL, NOT_APPLICABLE, ERROR = "pass", "fail", "not_applicable", "error"
 
@@ -18,9 +18,9 @@ class Outcome(msgspec.Struct):
     """One check on one scope of one mesh.
 
     kind: `identity`, `requirement`, `assertion`, or `input` for a mesh that could not be checked. status: `pass`,
-    `fail`, `not_applicable` or `error`. message: what a pass proves, what a failure found, why there is neither.
-    value, expected, residual, tolerance: of identities, as in the report of analyze; of assertions the statistic and
-    the number it is compared with.
+    `fail`, `not_applicable` or `error`. message: the meaning of a pass, the cause of a failure, or the reason
+    for neither. value, expected, residual, tolerance: of identities, as in the report of analyze; of assertions the
+    statistic and the number it is compared with.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Outcome(msgspec.Struct):
 
     @property
     def label(self) -> str:
-        """The name, with the scope where that is not the whole mesh."""
+        """Name, with the scope if that is not the whole mesh."""
         return self.name if self.scope == "whole" else f"{self.name} ({self.scope})"
 
 
@@ -51,17 +51,17 @@ class CheckedMesh(msgspec.Struct):
     warnings: list[Remark]
 
     def count(self, status: str) -> int:
-        """Outcomes of a status."""
+        """Number of outcomes of a status."""
         return sum(outcome.status == status for outcome in self.outcomes)
 
     @property
     def trouble(self) -> list[Outcome]:
-        """What fails, and what could not be done."""
+        """Outcomes that failed or could not be computed."""
         return [outcome for outcome in self.outcomes if outcome.status in (FAIL, ERROR)]
 
 
 class Rule(msgspec.Struct):
-    """One thing that was checked of every mesh: its name, its kind, and what a pass proves."""
+    """One check of every mesh: its name, its kind, and the meaning of a pass."""
 
     name: str
     kind: str
@@ -82,12 +82,12 @@ class CheckReport(msgspec.Struct):
 def report_of(
     rules: list[Rule], meshes: list[CheckedMesh], exit_code: int, configuration: Configuration | None = None
 ) -> CheckReport:
-    """The report of one call."""
+    """Build the report of one call."""
     return CheckReport(1, __version__, rules, meshes, exit_code, configured(configuration))
 
 
 def failed_input(path: str, message: str, exit_code: int) -> CheckedMesh:
-    """A mesh that could not be checked."""
+    """Result for a mesh that could not be checked."""
     outcome = Outcome("input", INPUT, "whole", ERROR, escape_text(message))
     return CheckedMesh(path, None, ERROR, exit_code, None, [outcome], [])
 
@@ -108,6 +108,6 @@ def sentence(mesh: CheckedMesh, outcome: Outcome) -> str:
 
 
 def write_json(report: CheckReport) -> bytes:
-    """The report as JSON; bytes of a path that are no text are escaped."""
+    """Write the report as JSON; bytes of a path that are not text are escaped."""
     meshes = [msgspec.structs.replace(mesh, path=escape_text(mesh.path)) for mesh in report.meshes]
     return encode(msgspec.to_builtins(msgspec.structs.replace(report, meshes=meshes)))

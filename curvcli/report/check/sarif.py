@@ -1,4 +1,4 @@
-"""The outcome of `curvcli check` as SARIF 2.1.0, for code scanning: what fails, at the file it is in."""
+"""Outcome of `curvcli check` as SARIF 2.1.0 for code scanning: each failure, at the file it is in."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .model import INPUT, CheckedMesh, CheckReport, Outcome, sentence
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
-# What GitHub takes for the root of the repository.
+# Name of the repository's root for GitHub.
 _ROOT = "%SRCROOT%"
 
 
 def write_sarif(report: CheckReport) -> bytes:
-    """One run whose rules are the checks, whose results are what failed, and whose artifacts are the meshes."""
+    """One run whose rules are the checks, whose results are the failures, and whose artifacts are the meshes."""
     place = {rule.name: index for index, rule in enumerate(report.rules)}
     results = [
         _result(mesh, index, outcome, place) for index, mesh in enumerate(report.meshes) for outcome in mesh.trouble
@@ -40,7 +40,7 @@ def write_sarif(report: CheckReport) -> bytes:
 
 
 def _invocation(report: CheckReport) -> dict[str, Any]:
-    """The exit code, and the configuration file that has to do with it."""
+    """Exit code, and the configuration file that the verdict depends on."""
     found: dict[str, Any] = {"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}
     if not isinstance(report.configuration, msgspec.UnsetType):
         text = escape_sarif(report.configuration.sentence)
@@ -50,7 +50,7 @@ def _invocation(report: CheckReport) -> dict[str, Any]:
 
 
 def uri_of(path: str) -> str:
-    """A mesh's path as a URI reference, relative to the working directory where there is a way from there."""
+    """A mesh's path as a URI reference, relative to the working directory where possible."""
     try:
         relative = os.path.relpath(path)
     except ValueError:  # another drive
@@ -95,7 +95,7 @@ def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, in
         "partialFingerprints": {"curvcli/v1": hashlib.sha256(identity).hexdigest()},
     }
     if mesh.path != "-":
-        # Code scanning shows a result at a line; of a mesh it is the first.
+        # Code scanning shows a result at a line; for a mesh it is the first.
         artifact = {**_location(mesh.path), "index": index}
         found["locations"] = [{"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": 1}}}]
     if outcome.kind != INPUT:

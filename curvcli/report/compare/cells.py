@@ -1,4 +1,4 @@
-"""Which cells of two vertex tables differ beyond tolerance, column by column."""
+"""Comparison of two vertex tables: the cells that differ beyond tolerance, column by column."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Cells = NDArray[Any]
 
 @dataclass(frozen=True)
 class MovedColumn:
-    """A column with cells that differ: how many of how many, and the cell that moved most; null against a number is
+    """Column with cells that differ: their number, and the cell that moved most; null against a number is
     listed with `moved` null and comes first.
     """
 
@@ -105,7 +105,7 @@ def _moved(name: str, one: Cells, other: Cells, typical: float, noise: float, to
 
 
 class _Scales:
-    """What the moves of each column are measured against."""
+    """Scales for the moves of each column."""
 
     def __init__(self, a: Mapping[str, Cells], b: Mapping[str, Cells]) -> None:
         load_passes()
@@ -117,7 +117,7 @@ class _Scales:
         self.edge = max((_of(np.nanmean, np.sqrt(area)) for area in areas), default=0.0)
 
     def typical(self, name: str) -> float:
-        """The median size of the column and the other axes of its vector; the extent for positions."""
+        """Median size of the column and the other axes of its vector; the extent for positions."""
         shared = [side[axis] for axis in self._stems[stem(name)] for side in self._tables if axis in side]
         columns = [column.astype(np.float64) for column in shared if _numeric(column)]
         if stem(name) == "xyz":
@@ -126,7 +126,7 @@ class _Scales:
         return max(2 * _of(np.nanmedian, np.abs(column) / 2) for column in columns)
 
     def noise(self, name: str) -> float:
-        """What rounding can make of one cell."""
+        """Bound on the rounding of one cell."""
         if stem(name) == "xyz":
             return 4 * EPSILON * max(_of(np.nanmax, np.abs(side[name])) for side in self._tables)
         quantity = passes.column(name)
@@ -144,6 +144,6 @@ class _Scales:
 
 
 def _of(function: Callable[[Cells], Any], column: Cells) -> float:
-    """A statistic of what is not null; 0 of nothing."""
+    """Statistic of the values that are not null; 0 without values."""
     known = column[~np.isnan(column)] if column.dtype.kind == "f" else column
     return float(function(known)) if len(known) else 0.0

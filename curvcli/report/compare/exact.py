@@ -1,4 +1,4 @@
-"""How far computed columns are from the exact values of a smooth surface, in the usual norms."""
+"""Errors of computed columns against the exact values of a smooth surface, in the usual norms."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from ...curvatures.registry import passes
 
 Floats = NDArray[np.float64]
 
-# Exact columns by the stem that computed ones begin with; what is odd in the normal has a sign.
+# Exact columns by the stem of the computed ones; columns that are odd in the normal have a sign.
 _STEMS = ("kappa_1", "kappa_2", "K", "h")
 
 
 @dataclass(frozen=True)
 class ErrorNorms:
-    """The errors of one column against the exact one it was matched with.
+    """Errors of one column against the exact one it was matched with.
 
     relative_l2: ‖x − exact‖ / ‖exact‖, weighted by the areas of the vertices; None where the exact values are all 0.
-    linf: the largest error, at which vertex. rms: √(Σ A (x − exact)² / Σ A). bias: Σ A (x − exact) / Σ A, and
+    linf: the largest error, and its vertex. rms: √(Σ A (x − exact)² / Σ A). bias: Σ A (x − exact) / Σ A, and
     relative_bias over Σ A |exact| instead. nulls: vertices that have an exact value but no computed one. compared:
-    those that have both; where there is none, all but the counts is None.
+    those that have both; if there are none, everything but the counts is None.
     """
 
     column: str
@@ -42,10 +42,10 @@ class ErrorNorms:
 
 
 def match(columns: Mapping[str, Any], exact: Mapping[str, Any]) -> dict[str, str]:
-    """The exact column that each computed one estimates: its namesake, else by quantity.
+    """Exact column that each computed one estimates: of the same name, else by quantity.
 
-    Densities of Gauss curvature (`K_density`, `K_corrected`, `K_fit`, …) are set against K_density; mean curvatures
-    (`h_*`) against h_signed if they have a sign, else h; `kappa_1_*`, `kappa_2_*` against kappa_1, kappa_2. What has no
+    Densities of Gauss curvature (`K_density`, `K_corrected`, `K_fit`, …) are compared with K_density; mean curvatures
+    (`h_*`) with h_signed if they have a sign, else h; `kappa_1_*`, `kappa_2_*` with kappa_1, kappa_2. A column without
     partner is left out.
     """
     load_passes()
@@ -59,7 +59,7 @@ def match(columns: Mapping[str, Any], exact: Mapping[str, Any]) -> dict[str, str
             stem = next((stem for stem in _STEMS if name.startswith(f"{stem}_") or name == stem), "")
             wanted = {"K": "K_density" if quantity.length_exponent == -2 else "", "h": _mean(quantity.parity)}
             partner = wanted.get(stem, stem)
-            # What is left of a name after its stem says how it was estimated; an uncertainty estimates nothing.
+            # The rest of a name after its stem is the method of the estimate; an uncertainty estimates nothing.
             if partner in exact and not name.endswith("_sigma"):
                 matched[name] = partner
     return matched
@@ -74,7 +74,7 @@ def _mean(parity: str) -> str:
 
 
 def error_norms(column: str, exact: str, found: Floats, wanted: Floats, area: Floats) -> ErrorNorms:
-    """The errors of a column (V,) against exact values (V,), NaN is null; area: (V,) weights."""
+    """Error norms of a column (V,) against exact values (V,), NaN is null; area: (V,) weights."""
     known = np.isfinite(wanted)
     both = known & np.isfinite(found) & (area > 0)
     weight, reference = area[both], wanted[both]
@@ -100,5 +100,5 @@ def error_norms(column: str, exact: str, found: Floats, wanted: Floats, area: Fl
 
 
 def _known(value: float) -> float | None:
-    """None for what overflow has made of sums beyond doubles."""
+    """The value; None if a sum overflowed."""
     return None if math.isnan(value) else value

@@ -15,7 +15,7 @@ from .values import Difference, Tolerance
 
 
 class Side(msgspec.Struct):
-    """One of the two: its path and whether it is a mesh, a report or a table."""
+    """One side: its path and whether it is a mesh, a report or a table."""
 
     path: str
     kind: str
@@ -23,7 +23,7 @@ class Side(msgspec.Struct):
 
 
 class Change(msgspec.Struct):
-    """One value that is not the same, by its dotted key: moved, changed, absent_in_a or absent_in_b."""
+    """One value that differs, by its dotted key: moved, changed, absent_in_a or absent_in_b."""
 
     key: str
     status: str
@@ -34,7 +34,7 @@ class Change(msgspec.Struct):
 
 
 class ChangedColumn(msgspec.Struct):
-    """A column of the vertex tables with cells that differ, and the cell that moved most."""
+    """Column of the vertex tables with cells that differ, and the cell that moved most."""
 
     name: str
     rows: int
@@ -47,7 +47,7 @@ class ChangedColumn(msgspec.Struct):
 
 
 class Comparison(msgspec.Struct):
-    """The report of `curvcli compare`; equal where no value moved beyond tolerance."""
+    """The report of `curvcli compare`; equal if no value moved beyond tolerance."""
 
     schema_version: int
     curvcli: str

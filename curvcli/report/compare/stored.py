@@ -1,4 +1,4 @@
-"""Reports that were written before."""
+"""Readers of stored reports."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _HINT = "`curvcli analyze MESH -o REPORT.json` writes one"
 
 
 def read_report(path: str, *, max_bytes: int | None = None) -> dict[str, Any]:
-    """A report of `curvcli analyze` as plain Python values.
+    """Read a report of `curvcli analyze` as plain Python values.
 
-    Errors: InputError for what is missing, no JSON, no report, or of a schema_version that is not known here.
+    Errors: InputError for a file that is missing, no JSON, no report, or of an unknown schema_version.
     """
     try:
         with open_regular(path, max_bytes) as file:
@@ -28,7 +28,7 @@ def read_report(path: str, *, max_bytes: int | None = None) -> dict[str, Any]:
 
 
 def decode(data: bytes) -> dict[str, Any]:
-    """A report from its JSON text.
+    """Decode a report from its JSON text.
 
     Errors: InputError.
     """

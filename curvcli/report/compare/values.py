@@ -1,9 +1,9 @@
-"""What differs between two reports, or between the columns of two tables, beyond tolerance.
+"""Differences between two reports, or between the columns of two tables, beyond tolerance.
 
 A number has moved when |a − b| > atol + rtol · max(|a|, |b|, typical) + noise. `typical` is the size of the terms where
 a value can cancel: area^(L/2) for signed totals of length exponent L, the percentiles of its column for a statistic,
-the median size of its column for a cell. `noise` is what rounding can make of it, in multiples of ε and of the mean
-edge length to the power L; it is left out where rtol is 0, which asks for equality to the last bit. So Σ**A** of a
+the median size of its column for a cell. `noise` is a bound on its rounding error, in multiples of ε and of the mean
+edge length to the power L; it is left out where rtol is 0, which demands equality to the last bit. So Σ**A** of a
 closed surface, zero up to rounding, has not moved when its rounding has.
 """
 
@@ -24,10 +24,10 @@ from ...curvatures.registry import passes
 from ...mesh.triangles import EPSILON
 
 STATISTICS = ("min", "max", "mean", "area_mean", "std", "p02", "median", "p98")
-# Of a loop: its measures by length exponent; its other entries are compared as they are.
+# For a loop: its measures by length exponent; its other entries are compared as they are.
 _LOOP = {"length": 1, "total_curvature": 0, "sum_kappa_g": 0, "vector_area": 2, "force": 1, "torque": 2}
 _LOOP |= {"holonomy": 0, "writhe": 0, "twist": 0}
-# What rounding may have done to other entries says nothing of the curve.
+# Rounding of other entries does not depend on the curve.
 _BOUNDS = ("writhe_error", "linking_error")
 
 Key = tuple[str, ...]
@@ -36,19 +36,19 @@ Size = TypeVar("Size", float, NDArray[np.float64])
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How far a number may move: relative to its size and that of its terms, and absolutely."""
+    """Tolerance for a number: relative to its size and that of its terms, and absolute."""
 
     rtol: float = 1e-9
     atol: float = 0.0
 
     def allowed(self, size: Size, noise: float) -> Size:
-        """The largest move of a number of this size, or of each of several."""
+        """Largest move of a number of this size, or of each of several."""
         return self.atol + self.rtol * size + (noise if self.rtol > 0 else 0.0)
 
 
 @dataclass(frozen=True)
 class Difference:
-    """One value that is not the same: `moved` beyond what is allowed, `changed`, or absent on one side."""
+    """One value that differs: `moved` beyond tolerance, `changed`, or absent on one side."""
 
     key: str
     status: str  # moved, changed, absent_in_a, absent_in_b
@@ -59,7 +59,7 @@ class Difference:
 
 
 class Leaf(NamedTuple):
-    """A value of a report; typical is None where only equality counts, infinite where any number is the same."""
+    """Value of a report; typical is None where only equality counts, infinite where any number is the same."""
 
     value: Any
     typical: float | None = None
@@ -67,12 +67,12 @@ class Leaf(NamedTuple):
 
 
 def dotted(key: Key) -> str:
-    """A key as `--only` and `--ignore` match it."""
+    """Key in the form that `--only` and `--ignore` match."""
     return ".".join(key)
 
 
 def selector(only: Collection[str] = (), ignore: Collection[str] = ()) -> Callable[[str], bool]:
-    """Whether a dotted key is compared: it, or what it is part of, matches a pattern of `only` and none of `ignore`."""
+    """Filter of dotted keys: true if the key, or a prefix of it, matches a pattern of `only` and none of `ignore`."""
 
     def matches(key: str, patterns: Collection[str]) -> bool:
         return any(fnmatchcase(key, pattern) or fnmatchcase(key, f"{pattern}.*") for pattern in patterns)
@@ -91,14 +91,14 @@ def compare_reports(
     *,
     common: bool = False,
 ) -> tuple[list[Difference], int]:
-    """The differences between two reports, in the order of the report, and how many values were compared.
+    """Differences between two reports, in the order of the report, and the number of values compared.
 
     a, b: reports as `Analysis.report()` gives them. wanted: chooses dotted keys such as `totals.K`. common: leave out
-    what only one of them has. Paths, hashes, versions, timings and the numbers inside checks are not compared.
+    keys that only one of them has. Paths, hashes, versions, timings and the numbers inside checks are not compared.
     """
     one, other = dict(leaves(a)), dict(leaves(b))
     for listed in ("components", "loops"):
-        if len(a[listed]) != len(b[listed]):  # told by its count; what the entries are worth has no partner
+        if len(a[listed]) != len(b[listed]):  # the count shows it; the entries have no partners
             one, other = ({k: v for k, v in side.items() if k[0] != listed or k[1] == "count"} for side in (one, other))
     found: list[Difference] = []
     compared = 0
@@ -138,7 +138,7 @@ def _numbers(value: Any) -> list[float] | None:
 
 
 def leaves(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
-    """Every value of a report that is compared, with what a move of it is measured against."""
+    """Every compared value of a report, with the scale for its moves."""
     for name in ("mean", "area", "orient", "unit", "regions", "scale", "normals"):
         yield ("conventions", name), Leaf(report["conventions"].get(name))
     flatness = _flattest(report)
@@ -165,7 +165,7 @@ def leaves(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
 
 
 def _piece(piece: Mapping[str, Any], prefix: Key, flatness: float) -> Iterator[tuple[Key, Leaf]]:
-    """Topology, totals and the rest of the whole, a component or a region."""
+    """Topology, totals and further values of the whole, a component or a region."""
     topology, totals = piece["topology"], piece["totals"]
     for name, count in topology.items():
         yield (*prefix, "topology", name), Leaf(count)
@@ -202,7 +202,7 @@ def _piece(piece: Mapping[str, Any], prefix: Key, flatness: float) -> Iterator[t
 
 
 def _columns(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
-    """The statistics of every column; the axes of a vector share one size."""
+    """Statistics of every column; the axes of a vector share one size."""
     load_passes()
     edge = edge_length(report)
     sizes: dict[str, float] = {}
@@ -213,14 +213,14 @@ def _columns(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
         noise, quantity = noise_of(name, column["length_exponent"], edge), passes.column(name)
         for statistic in STATISTICS:
             spread = (column["std"] or 0.0) if statistic in ("mean", "area_mean") else 0.0
-            # The signs of lines are arbitrary, and with them every statistic of their components.
+            # The signs of lines are arbitrary, and so are all statistics of their components.
             typical = math.inf if quantity and quantity.line else max(sizes[stem(name)], spread)
             yield ("columns", name, statistic), Leaf(column[statistic], typical, noise)
         yield ("columns", name, "nulls"), Leaf(column["nulls"])
 
 
 def _flattest(report: Mapping[str, Any]) -> float:
-    """By how much rounding turns **H**_p where the surface is flattest: 1 / (h · edge length)."""
+    """Factor by which **H**_p magnifies rounding on the flattest part: 1 / (h · edge length)."""
     h, edge = report["columns"].get("h"), edge_length(report)
     least = h["min"] if h is not None else None
     return min(1 / (least * edge), 1 / EPSILON) if least and least * edge > 0 else 1 / EPSILON
@@ -232,27 +232,27 @@ def _by_total() -> dict[str, Quantity]:
 
 
 def stem(column: str) -> str:
-    """The name shared by the axes of a vector, and by positions."""
+    """Name shared by the axes of a vector, and by positions."""
     if column in ("x", "y", "z"):
         return "xyz"
     return column[:-2] if column[-2:] in ("_x", "_y", "_z") else column
 
 
 def noise_of(column: str, exponent: int, edge: float) -> float:
-    """What rounding can make of one value of a column on a mesh of this mean edge length."""
+    """Bound on the rounding of one value of a column on a mesh of this mean edge length."""
     quantity, relative = passes.column(column), 256 * EPSILON
     # Differences of nearly equal numbers under a root lose half of the digits: κ₁ − κ₂ at umbilics.
     return (math.sqrt(relative) if quantity and quantity.rooted else relative) * power(edge, exponent)
 
 
 def edge_length(piece: Mapping[str, Any]) -> float:
-    """The length scale of one face, √(area / faces); 0 where it is unknown."""
+    """Length scale of one face, √(area / faces); 0 where it is unknown."""
     area, faces = piece["totals"].get("area"), piece["topology"]["faces"]
     return math.sqrt(area / faces) if area and faces and area > 0 else 0.0
 
 
 def power(base: float, exponent: float) -> float:
-    """A power of a length; 0 for an unknown length or where no double holds it."""
+    """Power of a length; 0 for an unknown length or beyond the range of doubles."""
     if exponent == 0:
         return 1.0
     try:

@@ -1,1 +1,1 @@
-"""Summaries for the terminal; the one place beside the commands that imports rich."""
+"""Summaries for the terminal; only this folder and the commands import rich."""

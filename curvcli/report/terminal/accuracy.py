@@ -29,7 +29,7 @@ def show(found: Accuracy) -> None:
 
 
 def _errors(found: Accuracy) -> Iterator[Table]:
-    """The norms of each column; fewer of them where the terminal is narrow."""
+    """Error norms of each column; fewer of them where the terminal is narrow."""
     every = ("relative L2", "Linf", "at vertex", "RMS", "bias", "relative", "null", "compared")
     both = ("column", "against")
     for make, names, numbers in (

@@ -1,4 +1,4 @@
-"""The outcome of `curvcli check` for people: what fails, one line each, the warnings, then a summary of what holds."""
+"""Outcome of `curvcli check` for the terminal: failures, one line each, warnings, then a summary of the passes."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from ..check.model import ERROR, FAIL, IDENTITY, INPUT, NOT_APPLICABLE, PASS, Ch
 from .console import MARKS, Console, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table, roomy_table
 
-# The least width of a column of sentences, or of paths.
+# Minimum width of a column of sentences, or of paths.
 _MESSAGE = 24
-# Rows of the table of several meshes, as long as -v does not ask for the rest.
+# Rows of the table of several meshes without -v.
 _ROWS = 20
 _EXPLANATION = re.compile(r"[:;] ")
 _ORDER = (ERROR, FAIL, PASS, NOT_APPLICABLE)
 
 
 def write_text(report: CheckReport, verbose: int = 0) -> bytes:
-    """The same as plain text."""
+    """Report as plain text."""
     stream = StringIO()
     show(report, verbose, stream)
     return stream.getvalue().encode("utf-8", "backslashreplace")
 
 
 def show(report: CheckReport, verbose: int = 0, stream: TextIO | None = None) -> None:
-    """Print the report, to stdout unless told otherwise; rich where that is a terminal, plain text elsewhere.
+    """Print the report, by default to stdout; rich on a terminal, plain text elsewhere.
 
-    The length is bounded whatever passes, and by the first failures of each check; verbose: everything.
+    The length is bounded: passes are summarised, and failures are cut after the first of each check; verbose: all.
     """
     console = report_console(100, stream)
     _show_trouble(console, report, verbose)
@@ -50,7 +50,7 @@ def show(report: CheckReport, verbose: int = 0, stream: TextIO | None = None) ->
 
 
 def _show_trouble(console: Console, report: CheckReport, verbose: int) -> None:
-    """Failures and warnings, never folded: one line each, for grep and for eyes."""
+    """Failures and warnings, one line each and never folded, for grep."""
     first, most, remarks = (None, None, None) if verbose else (FIRST, MOST, WARNINGS)
     listed, others = all_failures(report.meshes, first, most)
     for line in listed:
@@ -65,7 +65,7 @@ def _show_trouble(console: Console, report: CheckReport, verbose: int) -> None:
 
 
 def summary(report: CheckReport) -> str:
-    """How many meshes and checks passed, in one line."""
+    """Number of meshes and checks that passed, in one line."""
     outcomes = [outcome for mesh in report.meshes for outcome in mesh.outcomes if outcome.kind != INPUT]
     counts = {status: sum(outcome.status == status for outcome in outcomes) for status in _ORDER}
     told = f"{counts[PASS]:,} checks hold, {counts[FAIL]:,} fail, {counts[NOT_APPLICABLE]:,} do not apply"
@@ -73,7 +73,7 @@ def summary(report: CheckReport) -> str:
 
 
 def _outcomes(mesh: CheckedMesh, verbose: int) -> Iterator[Table]:
-    """A row per check and status, failing first, or with -v per outcome; with little room names stand before
+    """A row per check and status, failing first, or with -v per outcome; on a narrow terminal names stand before
     sentences."""
     listed = sorted(mesh.outcomes, key=lambda outcome: _ORDER.index(outcome.status))
     groups = [[outcome] for outcome in listed] if verbose else by_name(listed)
@@ -92,7 +92,7 @@ def _outcomes(mesh: CheckedMesh, verbose: int) -> Iterator[Table]:
 
 
 def _message(group: list[Outcome], verbose: int) -> str:
-    """The sentence of the first outcome; of an identity that holds its formula, without the explanation behind it."""
+    """Sentence of the first outcome; for an identity that holds, its formula without the explanation."""
     first = group[0]
     if first.kind == IDENTITY and first.status == PASS and not verbose:
         return _EXPLANATION.split(first.message, maxsplit=1)[0]
@@ -102,7 +102,7 @@ def _message(group: list[Outcome], verbose: int) -> str:
 def _meshes(report: CheckReport, verbose: int) -> Iterator[Table]:
     """A row per mesh, failing first, and one for the rest."""
     listed = sorted(report.meshes, key=lambda mesh: _ORDER.index(mesh.status))
-    # A row for the last mesh is as short as its count.
+    # A count is no shorter than one more row.
     most = len(listed) if verbose or len(listed) <= _ROWS + 1 else _ROWS
     for counts in (("hold", "fail", "do not apply", "warnings"), ("fail",)):
         table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
@@ -123,7 +123,7 @@ def _meshes(report: CheckReport, verbose: int) -> Iterator[Table]:
 
 
 def _numbers(meshes: list[CheckedMesh]) -> dict[str, int]:
-    """The sums of the counts of some meshes, by the headers of the table."""
+    """Sums of the counts of some meshes, by the headers of the table."""
     statuses = {"hold": PASS, "fail": FAIL, "do not apply": NOT_APPLICABLE}
     numbers = {name: sum(mesh.count(status) for mesh in meshes) for name, status in statuses.items()}
     return {**numbers, "warnings": sum(len(mesh.warnings) for mesh in meshes)}

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 # Rows of the summary; all with -v.
 _SHOWN = 40
-# The least width of a column of names.
+# Minimum width of a column of names.
 _NAME = 24
 _ABSENT = {"absent_in_a": "only in B", "absent_in_b": "only in A"}
 
@@ -39,7 +39,7 @@ def show(found: Comparison, verbose: int = 0) -> None:
 
 
 def _moved(found: Comparison, verbose: int) -> Iterator[Table]:
-    """A row for each difference; with little room the values stand below its name, so that no digit is lost."""
+    """A row for each difference; on a narrow terminal the values are below its name, so that no digit is lost."""
     wide, narrow = roomy_table(), plain_table("value", fold=_NAME)
     for header in ("value", "A", "B", "moved", "allowed"):
         wide.add_column(header, overflow="fold")

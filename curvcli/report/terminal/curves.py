@@ -1,4 +1,4 @@
-"""The summary of curves for the terminal."""
+"""Summary of curves for the terminal."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from ..model import CheckRow
 from .console import MARKS, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table, roomy_table, with_sentences
 
-# Curves that are shown unless more is asked for with -v.
+# Curves shown without -v.
 SHOWN = 20
 
 
 def show(report: CurveReport, verbose: int = 0) -> None:
-    """Print a table of the curves and what holds along them; rich where stdout is a terminal, plain in a pipe."""
+    """Print a table of the curves and their identities; rich where stdout is a terminal, plain in a pipe."""
     console = report_console(120)
     boundary = sum(row.kind == "boundary" for row in report.curves)
     words = f"{counted(boundary, 'boundary curve')}, {counted(len(report.curves) - boundary, 'polyline')}"
@@ -28,7 +28,7 @@ def show(report: CurveReport, verbose: int = 0) -> None:
     console.print(fitting(console, _curves(report.curves if verbose else report.curves[:SHOWN])))
     if len(report.curves) > SHOWN and not verbose:
         more = counted(len(report.curves) - SHOWN, "more curve")
-        console.print(f"[dim]{more}; -v shows all, --json tells all of each[/dim]")
+        console.print(f"[dim]{more}; -v shows all, --json has every value[/dim]")
     linked = [f"{row.a} and {row.b} ({row.linking:+d})" for row in report.links if row.linking]
     if linked:
         shown = linked if verbose else linked[:SHOWN]
@@ -37,12 +37,12 @@ def show(report: CurveReport, verbose: int = 0) -> None:
     console.print(fitting(console, _checks(report.checks, verbose)))
     show_configuration(console, report.configuration)
     told = "Σψ: total curvature; writhe in turns; holonomy ≡ 2π · writhe. "
-    proves = "unknotted: Σψ ≤ 4π proves it of a curve that does not cross itself; more proves nothing."
+    proves = "unknotted: Σψ ≤ 4π proves it for a curve that does not cross itself; a larger Σψ proves nothing."
     console.print(f"[dim]{told}{proves}[/dim]")
 
 
 def _curves(rows: list[CurveRow]) -> Iterator[Table]:
-    """All that is told of each curve; fewer digits, then fewer numbers, where the terminal is narrow."""
+    """Row for each curve; fewer digits, then fewer numbers, where the terminal is narrow."""
     numbers = ("vertices", "length", "Σψ", "turns", "Σκ_g", "writhe", "holonomy")
     for digits, names, chosen, knots in (
         (6, ("curve", "kind", "closed"), numbers, True),
@@ -72,7 +72,7 @@ def _curves(rows: list[CurveRow]) -> Iterator[Table]:
 
 
 def _checks(checks: list[CheckRow], verbose: int) -> Iterator[Table]:
-    """Each identity once, by its closest call, and whatever failed."""
+    """Each identity once, by its closest call, and every failure."""
     listed = checks if verbose else [row for name in dict.fromkeys(c.name for c in checks) for row in _of(checks, name)]
     rows = [
         (
@@ -86,7 +86,7 @@ def _checks(checks: list[CheckRow], verbose: int) -> Iterator[Table]:
 
 
 def _of(checks: list[CheckRow], name: str) -> list[CheckRow]:
-    """The rows of one identity that are worth a line: all that fail, else the closest call, else the first reason."""
+    """Rows of one identity to print: all that fail, else the closest call, else the first reason."""
     mine = [row for row in checks if row.name == name]
     failed = [row for row in mine if row.status == "fail"]
     tested = [row for row in mine if row.status == "pass"]

@@ -1,4 +1,4 @@
-"""Tables for a terminal of any width: what does not fit is left out or shortened, never cut off."""
+"""Tables for a terminal of any width: cells that do not fit are left out or shortened, never cut off."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from rich.console import Console
 from rich.measure import Measurement
 from rich.table import Table
 
-# Least widths of a column of sentences, and of one of names that are folded.
+# Minimum widths of a column of sentences, and of one of names that are folded.
 _SENTENCE, _NAME = 20, 14
 
 
 def fitting(console: Console, variants: Iterable[Table]) -> Table:
-    """The first table that fits the console without a cell cut off, else the last, whose cells are folded."""
+    """First table that fits the console without a cell cut off, else the last, whose cells are folded."""
     table, boundless = None, console.options.update(max_width=10**6)
     for table in variants:
         for column in table.columns:
             if column.no_wrap:
-                # Cells of several words would else be measured by the longest of them.
+                # Otherwise cells of several words are measured by the longest word.
                 cells = (column.header, *column.cells)
                 column.min_width = max(Measurement.get(console, boundless, cell).maximum for cell in cells)
         if Measurement.get(console, boundless, table).minimum <= console.width:
@@ -32,7 +32,7 @@ def fitting(console: Console, variants: Iterable[Table]) -> Table:
 
 
 def plain_table(*headers: str, fold: int | None = None) -> Table:
-    """An empty table without frame whose columns are as wide as they need; fold: the least width to fold them to."""
+    """Empty table without frame whose columns are as wide as they need; fold: the least width to fold them to."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     for header in headers:
         table.add_column(header, no_wrap=fold is None, overflow="fold", min_width=fold)
@@ -40,7 +40,7 @@ def plain_table(*headers: str, fold: int | None = None) -> Table:
 
 
 def roomy_table(*headers: str) -> Table:
-    """An empty table without frame, its columns two blanks and more apart, for where there is room."""
+    """Empty table without frame, with two blanks or more between columns, for wide terminals."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for header in headers:
         table.add_column(header, no_wrap=True)
@@ -50,9 +50,9 @@ def roomy_table(*headers: str) -> Table:
 def with_sentences(
     headers: Sequence[str], numbers: Sequence[str], last: str, rows: Sequence[tuple[Sequence[str], str, bool]]
 ) -> Iterator[Table]:
-    """Tables whose last column holds sentences; the narrow one has those that are needed below the first cell instead.
+    """Tables whose last column has sentences; the narrow one has the needed ones below the first cell instead.
 
-    rows: the cells but for the last, the sentence, and whether it is needed where there is little room.
+    rows: the cells but for the last, the sentence, and whether a narrow table needs it.
     """
     wide = roomy_table(*headers)
     add_numbers(wide, *numbers)
@@ -68,6 +68,6 @@ def with_sentences(
 
 
 def add_numbers(table: Table, *headers: str) -> None:
-    """Columns of numbers, to the right."""
+    """Add columns of numbers, right-aligned."""
     for header in headers:
         table.add_column(header, justify="right", no_wrap=True)

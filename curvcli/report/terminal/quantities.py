@@ -12,7 +12,7 @@ from ..quantities import facts, find, public
 from .console import escape, report_console
 from .fitting import fitting, plain_table
 
-# The least width of a column of formulas.
+# Minimum width of a column of formulas.
 _FORMULA = 24
 
 
@@ -22,13 +22,13 @@ def listing() -> None:
     tables = [_listed(headers[:count]) for count in (5, 4, 3, 2)]
     console = report_console()
     console.print(fitting(console, tables))
-    console.print("[dim]+ beyond the core preset; `curvcli passes NAME` tells all about one[/dim]\n")
+    console.print("[dim]+ beyond the core preset; `curvcli passes NAME` explains one[/dim]\n")
     advice = plain(console.width) if console.is_terminal else plain()
     console.print(escape(advice), soft_wrap=True, end="")
 
 
 def _listed(headers: Sequence[str]) -> Table:
-    """All quantities with some of their facts and their formulas, which are folded."""
+    """Table of all quantities with some of their facts and their folded formulas."""
     table = plain_table(*headers)
     table.add_column("formula", overflow="fold", min_width=_FORMULA)
     for quantity in public():
@@ -40,21 +40,21 @@ def _listed(headers: Sequence[str]) -> Table:
 
 
 def describe(name: str) -> None:
-    """Print everything about one quantity."""
+    """Print all facts of one quantity."""
     shown: dict[str, Any] = {**facts(find(name))}
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(overflow="fold")
     labels = {
         "symbol": "symbol",
-        "description": "what it is",
+        "description": "description",
         "formula": "formula",
         "kind": "kind",
         "unit": "unit",
         "columns": "columns",
-        "boundary": "on the boundary",
-        "preserves": "what it preserves",
-        "total": "its sum",
+        "boundary": "boundary",
+        "preserves": "preserves",
+        "total": "sum",
         "source": "source",
         "needs": "needs",
     }

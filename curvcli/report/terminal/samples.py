@@ -1,4 +1,4 @@
-"""The catalogue of test surfaces, for the terminal."""
+"""Catalogue of test surfaces, for the terminal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def listing() -> None:
-    """Print all surfaces with what they are."""
+    """Print all surfaces with their descriptions."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("name", no_wrap=True)
     table.add_column("surface")
@@ -23,11 +23,11 @@ def listing() -> None:
         table.add_row(spec.name, escape(spec.summary))
     console = report_console()
     console.print(table)
-    console.print("[dim]`curvcli sample NAME` tells what is known about one; -o FILE writes it[/dim]")
+    console.print("[dim]`curvcli sample NAME` prints the exact values of one; -o FILE writes it[/dim]")
 
 
 def describe(spec: SampleSpec, made: Sample) -> None:
-    """Print one surface: its parameters, and what is exactly known about it."""
+    """Print one surface: its parameters and exact values."""
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(overflow="fold")

@@ -1,4 +1,4 @@
-"""The summary for the terminal: what the mesh is, what holds, what it adds up to."""
+"""Summary for the terminal: shape of the mesh, checks, totals and columns."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .fitting import add_numbers, fitting, plain_table
 if TYPE_CHECKING:
     from ...analysis.result import Result
 
-# Least widths of a column of sentences, and of one of names that are folded.
+# Minimum widths of a column of sentences, and of one of names that are folded.
 _DETAIL, _NAME = 20, 14
-# Whole numbers below are written out.
+# Smaller whole numbers are written without an exponent.
 _PLAIN = 1e6
 
 
@@ -58,7 +58,7 @@ def _shape(report: Report) -> str:
 
 
 def _checks(rows: list[CheckRow], verbose: int) -> Iterator[Table]:
-    """What fails first, with the detail beside the numbers, or below the name where the terminal is narrow."""
+    """Failures first, with the detail beside the numbers, or below the name where the terminal is narrow."""
     listed = failing_first(row for row in rows if row.scope == "whole" or row.status == "fail" or verbose)
     hidden = len(rows) - len(listed)
     scoped = any(row.scope != "whole" for row in listed)
@@ -111,7 +111,7 @@ def _scalar(value: Any) -> float | None:
 
 
 def _columns(report: Report) -> Iterator[Table]:
-    """The statistics of every column; fewer digits, then fewer statistics, where the terminal is narrow."""
+    """Statistics of every column; fewer digits, then fewer statistics, where the terminal is narrow."""
     for digits, unit, statistics in (
         (4, True, ("min", "median", "max", "mean")),
         (3, True, ("min", "median", "max", "mean")),
@@ -152,5 +152,5 @@ def _number(value: float | None, digits: int = 2, undefined: str = "undefined") 
     if value is None:
         return undefined
     text = f"{value + 0.0:.{digits}g}"  # zero has no sign
-    # 4670 is shorter than 4.67e+03, and as many digits.
+    # 4670 is shorter than 4.67e+03 and has as many digits.
     return f"{float(text):.0f}" if "e+0" in text and abs(value) < _PLAIN else text
