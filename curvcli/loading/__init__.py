@@ -1,1 +1,1 @@
-"""From files to meshes: the file's own vertices and polygons in file order, with everything else it says."""
+"""Readers of mesh files: vertices and polygons in file order, with all labels and properties."""

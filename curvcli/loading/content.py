@@ -1,4 +1,4 @@
-"""The bytes of a file: regular files only, read once, inflated within limits."""
+"""Bytes of a file: regular files only, read once, inflated within limits."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class DamagedError(InputError):
 
 
 def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) -> io.FileIO:
-    """The file, opened for reading without a buffer, if it is a regular one.
+    """Open a regular file for reading without a buffer.
 
-    Errors: InputError for what is missing, unreadable, too large, or no regular file; no FIFO or device is waited for.
+    Errors: InputError for a missing, unreadable, too large or irregular file; FIFOs and devices never block.
     """
     flags = os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
     try:
@@ -52,7 +52,7 @@ def open_regular(path: str | bytes | os.PathLike[Any], max_bytes: int | None) ->
 
 
 def read_limited(file: BinaryIO | io.FileIO, max_bytes: int | None, expected: str = "a mesh") -> bytes:
-    """All bytes of a file or stream, of which this is expected.
+    """Read all bytes of a file or stream. expected: the content, for the error message.
 
     Errors: InputError if it is empty; those of `read_whole`.
     """
@@ -63,10 +63,10 @@ def read_limited(file: BinaryIO | io.FileIO, max_bytes: int | None, expected: st
 
 
 def read_whole(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
-    """All bytes of a file or stream.
+    """Read all bytes of a file or stream.
 
-    Errors: InputError if it cannot be read, holds more than max_bytes, or is a file that changes meanwhile: a part of a
-    mesh is often a mesh.
+    Errors: InputError if it cannot be read, has more than max_bytes, or changes meanwhile: a part of a mesh is often a
+    valid mesh.
     """
     try:
         descriptor = _descriptor(file)
@@ -87,17 +87,17 @@ def read_whole(file: BinaryIO | io.FileIO, max_bytes: int | None) -> bytes:
 
 
 def _descriptor(file: BinaryIO | io.FileIO) -> int | None:
-    """The number of the very file or pipe that a stream hands on; None for streams that make their bytes otherwise."""
+    """The descriptor below a stream that passes its bytes unchanged; None for other streams."""
     raw = getattr(file, "raw", file)
     return raw.fileno() if isinstance(raw, io.FileIO) or type(raw).__name__ == "SocketIO" else None
 
 
 def read_stream(file: BinaryIO | io.FileIO, limit: int | None = None) -> bytes:
-    """A stream to its end, or to a number of bytes; one that does not block is waited for.
+    """Read a stream to its end, or up to a number of bytes; a non-blocking stream is polled.
 
-    Errors: InputError for a stream that has nothing to give now and cannot be waited for.
+    Errors: InputError for a stream without data that cannot be polled.
     """
-    # Piece by piece as they come: only between them does Python hear of a signal before it waits again.
+    # Piece by piece: Python handles signals only between two reads.
     read = getattr(file, "read1", file.read)
     left, parts = sys.maxsize if limit is None else limit, []
     while left and (part := read(min(_CHUNK, left)) or _late(file, min(_CHUNK, left))):
@@ -107,13 +107,13 @@ def read_stream(file: BinaryIO | io.FileIO, limit: int | None = None) -> bytes:
 
 
 def _late(file: BinaryIO | io.FileIO, most: int) -> bytes:
-    """What comes after a stream had nothing to give, which may be its end."""
+    """The next data of a non-blocking stream without data at present; empty at its end."""
     descriptor = _descriptor(file)
     if descriptor is None:
         if file.read(1) is None:
             raise InputError("a stream that has nothing to give yet, and does not block", hint="let it block")
         return b""
-    if os.get_blocking(descriptor) and os.isatty(descriptor):  # where the end is a key that is pressed once
+    if os.get_blocking(descriptor) and os.isatty(descriptor):  # on a terminal Ctrl-D ends one read only
         return b""
     while True:
         wait_for(descriptor, "read")
@@ -124,7 +124,7 @@ def _late(file: BinaryIO | io.FileIO, most: int) -> bytes:
 
 
 def inflate(data: bytes, max_bytes: int | None) -> bytes:
-    """The content of gzip data.
+    """Inflate gzip data.
 
     Errors: DamagedError if they are damaged, InputError if they inflate to more than max_bytes (without it: 64 MiB and
     100 times the compressed size, more than any mesh needs).
@@ -145,7 +145,7 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
 
 
 def free_inflation(size: int) -> int:
-    """Bytes that so many compressed bytes may become where nobody sets a limit: more than any mesh or table needs."""
+    """Default limit in bytes for the inflated size of so many compressed bytes: more than any mesh or table needs."""
     return _FREE_INFLATION + _INFLATION * size
 
 
@@ -157,5 +157,5 @@ def _irregular(mode: int, path: str | bytes | os.PathLike[Any]) -> InputError:
 
 
 def too_large(found: str, limit: int) -> InputError:
-    """What is said of more than is allowed."""
+    """The message for an input above a size limit."""
     return InputError(f"{found} found, at most {limit} allowed", hint="--max-bytes sets the limit")

@@ -28,7 +28,7 @@ _VOLUME = "a volume has no faces: extract a surface first, for example with skim
 _UNPACK = "unpack it first"
 _TABLE = "`curvcli compare` reads reports and tables"
 
-# By suffix; each command is one that was run.
+# By suffix; every command was run.
 _WAYS_OUT = {
     **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "msh", "nas", "tec", "vol"), _MESHIO),
     **dict.fromkeys(("vtk", "vtp", "vtu"), _VTK),
@@ -50,7 +50,7 @@ _WAYS_OUT = {
 _PLAIN = re.compile(r"[\w./ +-]+", re.ASCII)
 _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
 _MAGIC = re.compile(r"[*?[]")
-# Entries of a folder that are looked at for a suffix.
+# Largest number of entries of a folder that are searched for a suffix.
 _LOOKED_AT = 1000
 
 
@@ -66,7 +66,7 @@ def suffix_of(path: str) -> str:
 
 
 def of_suffix(path: str) -> str:
-    """What reads or converts a file with this suffix."""
+    """A hint with a command that reads or converts a file with this suffix."""
     words = _WAYS_OUT.get(suffix_of(path))
     if words is None:
         return f"--input-format {'|'.join(input_formats())} reads a file of such a format under another name"
@@ -74,7 +74,7 @@ def of_suffix(path: str) -> str:
 
 
 def of_folder(path: str) -> str:
-    """What reads the meshes in a folder."""
+    """A hint with a command that reads the meshes in a folder."""
     suffix, inside = _suffix_inside(path), path.rstrip(os.sep) or os.sep
     pattern = os.path.join(inside, f"*.{suffix}")
     quoted = _quoted(inside).rstrip(os.sep) + f"/*.{suffix}"
@@ -83,7 +83,7 @@ def of_folder(path: str) -> str:
 
 
 def of_missing(path: str) -> str | None:
-    """What reads a URL or a pattern, where no file has that name; None for other names."""
+    """A hint for a URL or a pattern that names no file; None for other names."""
     if _URL.match(path):
         if path.lower().startswith("file://"):
             return f"`curvcli batch {_quoted(path, 'URL')} -o OUT` reads a URL, other commands a path"
@@ -98,12 +98,12 @@ def of_missing(path: str) -> str | None:
 
 
 def is_url(path: str) -> bool:
-    """Whether a name is a URL."""
+    """Test for a URL."""
     return bool(_URL.match(path))
 
 
 def _suffix_inside(path: str) -> str:
-    """The suffix of the first mesh in a folder as it is written there, `ply` if there is none."""
+    """The suffix of the first mesh in a folder, in its own case; `ply` if there is none."""
     try:
         with os.scandir(path) as entries:
             for entry, _ in zip(entries, range(_LOOKED_AT), strict=False):
@@ -117,12 +117,12 @@ def _suffix_inside(path: str) -> str:
 
 
 def _quoted(path: str, placeholder: str = "") -> str:
-    """The path for a shell, or a placeholder for one that cannot be printed."""
+    """Quote a path for a shell; a placeholder for an unprintable path."""
     if path.isprintable():
         return shlex.quote(path)
     return placeholder or (f"IN.{suffix_of(path)}" if suffix_of(path).isprintable() else "IN")
 
 
 def _inside_quotes(path: str) -> str:
-    """The path between quotes of Python and of a shell, or a placeholder for one that would end them."""
+    """A path for use inside quotes of Python and of a shell; a placeholder for a path that would end them."""
     return path if _PLAIN.fullmatch(path) else f"IN.{suffix_of(path)}"

@@ -1,4 +1,4 @@
-"""The entrance: trimesh's loader reads every mesh, by parsers of curvcli that are registered there, or by its own."""
+"""Entrance through trimesh: its loader calls the parsers of curvcli, registered there, or its own."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class MeshStream(io.RawIOBase):
         self.pieces, self.wanted = pieces, wanted
 
     def read(self, size: int = -1) -> bytes:
-        """The next bytes, as many as asked for or all."""
+        """The next `size` bytes, or all."""
         return self.pieces.rest() if size < 0 else bytes(self.pieces.take(min(size, self.pieces.left)))
 
 

@@ -1,4 +1,4 @@
-"""Regions: any labelling of the faces, and the surface cut apart along it.
+"""Regions: a labelling of the faces, and the surface cut along it.
 
 Every integral relation holds for every set of faces. To evaluate it on a region, the surface is cut so that each region
 has its own copy of the vertices on its border; all columns, totals and checks then apply as they stand, with the border
@@ -35,7 +35,7 @@ class Regions:
     """A labelling of the faces.
 
     face: (F,) region of each face, -1 for none. names: of the regions, in ascending order of label or of first use.
-    unused: labels that only polygons carry of which no face is left.
+    unused: labels of polygons without any remaining face.
     """
 
     face: Index
@@ -49,7 +49,7 @@ class Regions:
 
 
 def find_regions(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
-    """The regions that `--regions` names; an error names the mesh. See `_find`."""
+    """Find the regions that `--regions` names, see `_find`; errors name the mesh."""
     try:
         return _find(surface, chosen)
     except InputError as error:
@@ -58,11 +58,11 @@ def find_regions(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Re
 
 
 def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
-    """The regions that `--regions` names: records of an OBJ file, a face property of a PLY file, a file, or an array.
+    """Find the regions of `--regions`: records of an OBJ file, a face property of a PLY file, a file, or an array.
 
-    Labels are given per polygon of the file, or per triangle where there are as many; a polygon's label passes to its
-    triangles. A negative label is no region.
-    Errors: LackingError for a name that is none of these; InputError for labels that do not fit.
+    Labels are given per polygon of the file, or per triangle if their number matches; a polygon's label passes to its
+    triangles. Faces with a negative label belong to no region.
+    Errors: LackingError for an unknown name; InputError for labels of another number or type.
     """
     if not isinstance(chosen, str):
         return _from_labels(surface, np.asarray(chosen), "the labels")
@@ -83,9 +83,9 @@ def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
 
 
 def read_labels(path: str) -> NDArray[Any]:
-    """One label per face from a .npy, .csv or .txt file; a first line that is no number is a header.
+    """Read one label per face from a .npy, .csv or .txt file; a first line that is no number is a header.
 
-    Errors: InputError for a file that cannot be read or holds something else.
+    Errors: InputError for a file that cannot be read or has other content.
     """
     try:
         with open_regular(path, None) as file:
@@ -108,13 +108,13 @@ def _read_array(data: bytes) -> NDArray[Any]:
         shape, in_columns, dtype = header(stream)
         if dtype.hasobject:
             raise ValueError("objects")
-        # Of what is there: a header that promises more than the file holds is refused before memory is taken.
+        # The size of the data decides: a header that announces more is refused before memory is allocated.
         array = np.frombuffer(data, dtype, math.prod(shape), stream.tell())
         return array.reshape(shape, order="F" if in_columns else "C")
     except MemoryError:
         raise
     except Exception as error:
-        # A damaged header raises whatever the parts of Python's parser that numpy borrows may raise.
+        # numpy parses the header with Python's parser, and a damaged header raises any of its exceptions.
         raise ValueError(f"is a damaged .npy file ({error})") from None
 
 
@@ -135,7 +135,7 @@ def _read_lines(data: bytes, path: str) -> NDArray[Any]:
 
 
 def _read_line_by_line(text: str, path: str) -> NDArray[Any]:
-    """What Python alone takes for a number, or the line that is none, named."""
+    """Read numbers that only Python accepts; errors name the line that is none."""
     stream = io.StringIO(text, newline=None)
     lines = [(place, line.strip()) for place, line in enumerate(stream, 1) if line.strip()]
     if not _is_number(lines[0][1]):
@@ -148,7 +148,7 @@ def _read_line_by_line(text: str, path: str) -> NDArray[Any]:
 
 
 def cut_along_regions(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
-    """The surface with every region on vertices of its own, oriented as the whole is, and its regions as groups."""
+    """Cut a surface so that every region has its own vertices, oriented as the whole; with the regions as groups."""
     inside = regions.face >= 0
     faces, label = surface.faces[inside], regions.face[inside]
     turned = None
@@ -167,7 +167,7 @@ _SLIPPED = "meant, or a label has slipped; --table faces=PATH has the region of 
 
 
 def region_notices(cut: Surface, groups: Groups, regions: Regions) -> list[Notice]:
-    """What often is a label that has slipped: regions in pieces, pinched or of a single face, faces without one."""
+    """Warn of likely wrong labels: regions in pieces, pinched or with a single face, and faces without a label."""
     pieces = np.zeros(groups.count, np.int64)
     first = np.unique(cut.components.face, return_index=True)[1]
     np.add.at(pieces, groups.face[first], 1)
@@ -199,7 +199,7 @@ def region_notices(cut: Surface, groups: Groups, regions: Regions) -> list[Notic
 def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions:
     if labels.ndim != 1 or labels.dtype.kind not in "iufb":
         raise InputError(f"{source}: shape {labels.shape} of {labels.dtype}, expected one whole number per face")
-    # Beyond, a type of fractions has no longer every whole number, and two labels would be one.
+    # Beyond, a floating-point type skips whole numbers, and two labels would be equal.
     bits = np.finfo(labels.dtype).nmant + 1 if labels.dtype.kind == "f" else 63
     with np.errstate(invalid="ignore"):
         whole = labels.astype(np.int64)
@@ -219,7 +219,7 @@ def _from_labels(surface: Surface, labels: NDArray[Any], source: str) -> Regions
 
 
 def _numbered(codes: NDArray[Any], records: Labels) -> Regions:
-    """Only the names that some face carries."""
+    """Drop the names without a face."""
     used = np.unique(codes[codes >= 0])
     new = np.full(len(records.names) + 1, -1, np.int32)
     new[used] = np.arange(len(used))

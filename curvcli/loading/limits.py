@@ -1,4 +1,4 @@
-"""Limits and options that are checked before anything is read or allocated."""
+"""Checks of limits and options before any reading or allocation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..support.words import number_of
 
 
 def check_faces(found: int, allowed: int | None) -> None:
-    """Errors: InputError for more faces than allowed (None: any number)."""
+    """Raise InputError for more faces than allowed (None: any number)."""
     if allowed is not None and found > allowed:
         raise InputError(
             f"{number_of(found, 'face')} found, at most {allowed} allowed", hint="--max-faces sets the limit"
@@ -17,9 +17,9 @@ def check_faces(found: int, allowed: int | None) -> None:
 
 
 def parse_weld(weld: str | float) -> str | float:
-    """A way of welding: `auto`, `none`, `exact`, or a tolerance relative to the diagonal of the bounding box.
+    """Parse `--weld`: `auto`, `none`, `exact`, or a tolerance relative to the diagonal of the bounding box.
 
-    Errors: UsageError for what is none of these.
+    Errors: UsageError for any other value.
     """
     if isinstance(weld, str) and weld in ("auto", "none", "exact"):
         return weld

@@ -53,11 +53,11 @@ def as_surface(
     weld: str | float = "auto",
     normals: Literal["mesh", "file"] = "mesh",
 ) -> Surface:
-    """A Surface from a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays.
+    """Convert a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays to a Surface.
 
-    orient: None keeps a Surface's own choice and is `file` for the rest. weld: for files; what is no file is as it is.
-    Errors: InputError for a mesh that is no surface; UsageError for welding what is no file; TypeError for anything
-    else.
+    orient: None keeps the choice of a Surface and is `file` otherwise. weld: for files only.
+    Errors: InputError for a mesh that is no surface; UsageError for `weld` without a file; TypeError for any other
+    object.
     """
     if isinstance(given, Surface):
         _check_weld(weld, given.file.weld if given.file is not None else "none")
@@ -83,6 +83,6 @@ def as_surface(
 
 
 def _check_weld(weld: str | float, merged: str) -> None:
-    """What is there already stays as it was merged: only a file that is read can be merged otherwise."""
+    """Raise UsageError for `weld` without a file: only the reader of a file merges vertices."""
     if str(weld) not in ("auto", merged):
         raise UsageError(f"weld is {str(weld)!r}, but vertices are merged when a file is read; `curvcli.load` does it")

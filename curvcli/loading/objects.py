@@ -1,4 +1,4 @@
-"""Objects that stand for a mesh in Python: streams, and what to pass instead of others."""
+"""Python objects passed as meshes: streams, and errors for unsupported types."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ ACCEPTED = "a Surface, a path, a binary stream, a trimesh.Trimesh or (points, fa
 
 
 def is_stream(given: Any) -> bool:
-    """Whether an object is a stream of bytes: a file that is open, not a class or a mesh with a method `read`."""
+    """Test for an open binary stream; a class or a mesh with a method `read` is none."""
     return callable(getattr(given, "read", None)) and callable(getattr(given, "seekable", None)) and not _is_text(given)
 
 
 def refusal(given: Any, accepted: str = ACCEPTED, passing: str = "pass") -> TypeError:
-    """The error for an object that stands for no mesh: its type, what is accepted, and what to pass instead.
+    """The error for an object of an unsupported type: its type, the accepted types, and an expression to pass instead.
 
     passing: the words before an expression for a mesh.
     """
@@ -32,7 +32,7 @@ def _is_text(given: Any) -> bool:
 
 
 def _instead(given: Any, passing: str) -> str:
-    """What to pass instead of an object of a known kind."""
+    """An expression to pass instead of an object of a known library."""
     if isinstance(given, type):
         return "pass an object of it"
     if _is_text(given):

@@ -1,4 +1,4 @@
-"""What a Parquet file would take in memory, by its own record of it and of its pages, before any of it is unpacked."""
+"""Memory that a Parquet file needs, from its metadata and page headers, before any of it is unpacked."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from typing import Any
 from ..errors import InputError
 from .content import too_large
 
-_TRUE, _FALSE = 1, 2  # types of fields that have no further bytes
-# Nesting of what these files hold is 5 deep.
+_TRUE, _FALSE = 1, 2  # types of fields without further bytes
+# The metadata of these files nest 5 levels deep.
 _DEEPEST = 16
 
 
 def check_parquet(data: bytes, limit: int) -> None:
-    """Errors: InputError for a table with columns that hold neither numbers nor words, or that unpacks to more than
-    limit bytes: 8 for each number, or what the headers of its pages say."""
+    """Raise InputError for columns other than numbers and words, or for more than `limit` bytes of unpacked data.
+
+    The size is 8 bytes per number or the sum of the page headers, whichever is larger.
+    """
     import polars as pl
 
     schema = pl.read_parquet_schema(io.BytesIO(data))
@@ -62,7 +64,7 @@ class _Compact:
         self.data, self.at, self._depth = data, at, 0
 
     def struct(self) -> dict[int, Any]:
-        """The struct that begins here."""
+        """Read a struct at the present position."""
         self._depth += 1
         if self._depth > _DEEPEST or self.at < 0:
             raise ValueError("too deep")
@@ -95,7 +97,7 @@ class _Compact:
         return (value >> 1) ^ -(value & 1)
 
     def _value(self, kind: int) -> Any:
-        """A value by the type that the protocol numbers so: whole numbers, bytes, doubles, words, lists, structs."""
+        """Read a value of a type number of the protocol: integers, bytes, doubles, strings, lists, structs."""
         match kind:
             case 4 | 5 | 6:
                 return self._integer()

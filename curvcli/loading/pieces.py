@@ -1,4 +1,4 @@
-"""The bytes of a mesh, one piece after the other: what is parsed as it comes needs no memory for the whole of it."""
+"""Bytes of a mesh in consecutive pieces, so that a parser needs no memory for the whole file."""
 
 from __future__ import annotations
 
@@ -14,10 +14,9 @@ _BUFFERS = 3  # one is read or parsed, the others are hashed
 
 
 class Pieces:
-    """The bytes of a regular file, or of data in memory, from the first to the last, each of them read once.
+    """The bytes of a regular file, or of data in memory, read once from first to last.
 
-    size: their number. left: how many have not been taken. hashed: whether their hash is wanted; another thread works
-    it out meanwhile.
+    size: number of bytes. left: number of bytes not yet taken. hashed: compute the hash, in another thread.
     Errors: InputError where the file cannot be read, or changes meanwhile.
     """
 
@@ -50,11 +49,11 @@ class Pieces:
 
     @property
     def longest(self) -> int:
-        """The most bytes to be taken at once: all of those in memory, as many as `piece` of a file."""
+        """Largest number of bytes to take at once: all of data in memory, `piece` of a file."""
         return self.left if self._file is None else self.piece
 
     def ahead(self) -> bytes:
-        """The next bytes, up to `window`, which are still to be taken."""
+        """Peek at the next bytes, up to `window`, without taking them."""
         if self._file is None:
             return self._data[self._at : self._at + self.window]
         data = bytearray(min(self.window, self.left))
@@ -64,7 +63,7 @@ class Pieces:
         return bytes(data)
 
     def take(self, count: int) -> memoryview:
-        """The next bytes, as many as there must be; they stay where they are until two more pieces have been taken."""
+        """Take exactly so many of the next bytes; they stay valid until two more pieces are taken."""
         self.left -= count
         if self._file is None:
             self._at += count
@@ -76,7 +75,7 @@ class Pieces:
         return piece
 
     def back(self, piece: memoryview) -> None:
-        """The piece that was taken last is to be taken again; everything from there on is in memory now."""
+        """Return the last piece, to take it again; the rest of the file is read into memory."""
         if self._file is None:
             self._at -= len(piece)
         else:
@@ -84,7 +83,7 @@ class Pieces:
         self.left += len(piece)
 
     def whole(self) -> bytes:
-        """All that is left, in memory from now on, and still to be taken."""
+        """Read the rest into memory without taking it."""
         if self._file is not None:
             self._data = self._read_all(self.left)
         elif self._at:
@@ -92,13 +91,13 @@ class Pieces:
         return self._data
 
     def rest(self) -> bytes:
-        """All that is left."""
+        """Take the rest."""
         data = self.whole()
         self._at, self.left = len(data), 0
         return data
 
     def check(self) -> None:
-        """Errors: InputError if the file is no longer what it was when it was opened, unless it has been read whole."""
+        """Raise InputError if the file has changed since it was opened, unless it was read completely."""
         now = None if self._file is None else _stamp(self._file)
         if now is not None and now.size != self.size:
             raise changed(self.size, now.size)
@@ -106,7 +105,7 @@ class Pieces:
             raise rewritten()
 
     def sha256(self) -> str:
-        """The hash of all bytes, taken or not; those of a file have all been read then, and of one state of it."""
+        """The hash of all bytes, taken or not; reads a file to its end and checks that it has not changed."""
         if self._file is not None:
             self.whole()
         assert self._hashing is not None
@@ -114,12 +113,12 @@ class Pieces:
         return self._hash.hexdigest()
 
     def clear(self) -> None:
-        """Let go of all that was taken, and not before: at once it serves for what follows, in parts for little."""
+        """Release all taken bytes at once: one large block of free memory is reused, many small ones hardly are."""
         self._data, self._at = b"", 0
         self._buffers.clear()
 
     def _buffer(self, count: int) -> bytearray:
-        """Room for a piece; in turn, so that those before can be parsed and hashed."""
+        """A buffer for a piece; buffers rotate, so that earlier pieces can still be parsed and hashed."""
         if len(self._buffers) < _BUFFERS:
             return bytearray(max(count, min(self.piece, self.left)))
         buffer, hashed = self._buffers.popleft()

@@ -34,7 +34,7 @@ _WIDE_TEXT = re.compile(
 
 
 def format_of_name(path: str) -> str:
-    """The format that the suffix promises.
+    """The format of the suffix.
 
     Errors: InputError for a suffix of no format.
     """
@@ -47,10 +47,10 @@ def format_of_name(path: str) -> str:
 
 
 def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple[InputFormat, tuple[Notice, ...]]:
-    """The format of the content, and a notice where it is not the wanted one.
+    """The format of the content, and a notice if it differs from the wanted one.
 
-    wanted: what the name says, or `--input-format` if not by_name, None if nothing does.
-    Errors: InputError for content that cannot be recognised.
+    wanted: the format by the name, or `--input-format` if not by_name; None for no expectation.
+    Errors: InputError for unrecognised content.
     """
     start, formats = pieces.ahead(), input_formats()
     if not free_start(start, pieces.size, () if wanted is None else (wanted,)):
@@ -73,16 +73,16 @@ def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple
 
 
 def free_start(start: bytes, size: int, promised: Collection[str]) -> bool:
-    """Whether content of this size is of a format, although it may begin as an archive or a web page does.
+    """Test for a format whose files may begin like an archive or a web page.
 
-    promised: names of formats that it may have by its name.
+    promised: names of the formats that the file name allows.
     """
     tests = ((format.name in promised, format.any_start) for format in input_formats().values())
     return any(test is not None and test(start, size, named) for named, test in tests)
 
 
 def _refuse_what_is_known(data: bytes) -> None:
-    """Refuses content that is known to be something else, of which a part might be read as a mesh."""
+    """Refuse content of other known kinds, a part of which might be read as a mesh."""
     for sign, what in _ARCHIVES.items():
         if data.startswith(sign):
             raise InputError(f"{what} found, a mesh expected", hint="unpack it first")

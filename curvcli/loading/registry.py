@@ -32,14 +32,13 @@ class Wanted(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class InputFormat:
-    """A format that meshes are read in.
+    """An input format.
 
     name: for --input-format, messages and, with a dot, the suffix. suffixes: all of them without the dot, if there are
-    others. parse: the content of a file as a MeshFile whose `format` is the name; None: trimesh's own loader
-    for the name reads it. has_sign: whether the content bears
-    the sign of the format; it takes no bytes. weak_sign: text of other formats may bear it too, so theirs decide first.
-    any_start: whether content of this size is of the format although it begins as an archive or a web page does; the
-    last argument says that its name promises the format. separate_corners: triangles share no vertices in the file, so
+    others. parse: makes a MeshFile with this `format` from the content; None: trimesh's own loader for the name reads
+    it. has_sign: tests for the sign of the format without taking bytes. weak_sign: text of other formats may have it
+    too, so their signs are tested first. any_start: tests content of this size that begins like an archive or a web
+    page; the last argument is True if the name promises the format. separate_corners: triangles share no vertices, so
     `--weld auto` merges equal positions exactly. encodings, rows, digits, keeps, labels, polygons, curves: cells of the
     table in docs/formats.md. library, extra: module that the parser needs, and the extra of curvcli that installs it.
     """
@@ -72,7 +71,7 @@ class InputFormat:
         return self.suffixes or (self.name,)
 
     def require(self) -> None:
-        """Errors: MissingExtraError where the library that the parser needs is not installed."""
+        """Raise MissingExtraError if the library that the parser needs is not installed."""
         if self.library is not None and find_spec(self.library) is None:
             package = f"'curvcli[{self.extra}]'" if self.extra else self.library
             raise MissingExtraError(f"{self.title} needs {self.library}: `pip install {package}`")
@@ -82,7 +81,7 @@ _registered: dict[str, InputFormat] = {}
 
 
 def register(format: InputFormat) -> InputFormat:
-    """Add a format. Errors: ValueError for a name or suffix that another format has."""
+    """Add a format. Errors: ValueError for a name or suffix of another format."""
     taken = {ending for other in _registered.values() for ending in (other.name, *other.endings)}
     if twice := taken & {format.name, *format.endings}:
         raise ValueError(f"two input formats named {', '.join(sorted(twice))}")
@@ -100,7 +99,7 @@ def input_formats() -> Mapping[str, InputFormat]:
 
 
 def by_sign() -> list[InputFormat]:
-    """All formats in the order in which content is compared with their signs."""
+    """All formats in the order of the tests of their signs."""
     return sorted(input_formats().values(), key=lambda format: format.weak_sign)
 
 

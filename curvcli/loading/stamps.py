@@ -12,7 +12,7 @@ from ..errors import InputError
 
 
 class Stamp(NamedTuple):
-    """State of a regular file, different after a change. The times are those of its content and of its record."""
+    """State of a regular file, different after a change: the times are those of its content and of its inode."""
 
     device: int
     inode: int
@@ -22,9 +22,10 @@ class Stamp(NamedTuple):
 
 
 def stamp(descriptor: int) -> Stamp | None:
-    """The state of an open file, to be compared once it has been read; None for what is no regular file.
+    """The state of an open file, for comparison after reading; None unless it is a regular file.
 
-    Times pass in ticks: within the tick of the last change another one would leave no trace, so its end is waited for.
+    File times have ticks: a second change within the tick of the last one is invisible, so the end of the tick is
+    waited for.
     """
     status = os.fstat(descriptor)
     if not stat.S_ISREG(status.st_mode):
@@ -37,17 +38,17 @@ def stamp(descriptor: int) -> Stamp | None:
 
 
 def changed(expected: int, read: int) -> InputError:
-    """The error for a file that is not as long as it was."""
+    """The error for a file whose size has changed."""
     return InputError(f"{expected} bytes expected, {read} read: the file changed while it was read")
 
 
 def rewritten() -> InputError:
-    """The error for a file that is no longer the one whose first bytes were read."""
+    """The error for a file that was replaced during reading."""
     return InputError("the file changed while it was read", hint="read it again once its writer is done")
 
 
 def unreadable(error: OSError | ValueError) -> InputError:
-    """The error for a file that the system does not give."""
+    """The error for an operating-system error."""
     return InputError(_reason(error))
 
 

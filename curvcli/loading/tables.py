@@ -1,4 +1,4 @@
-"""Vertex tables that were written before: columns by name."""
+"""Reader of vertex tables written by curvcli."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SUFFIXES = (".csv", ".tsv", ".parquet")
 
 
 def read_stored_table(path: str, *, max_bytes: int | None = None) -> dict[str, NDArray[Any]]:
-    """The columns of a vertex table in .csv, .tsv or .parquet: float64 (NaN is null), or words (None is null).
+    """Read a vertex table in .csv, .tsv or .parquet: columns of float64 (NaN is null) or strings (None is null).
 
     Errors: InputError for a file that is missing, no table, or no vertex table of curvcli.
     """
@@ -73,7 +73,7 @@ def _columns(data: bytes, suffix: str, max_bytes: int | None) -> dict[str, NDArr
 
 
 def _check_rows(data: bytes, separator: bytes) -> None:
-    """Errors: InputError for rows that mostly lack cells: there would be many more of these than bytes."""
+    """Raise InputError for rows that mostly lack cells: null cells could outnumber the bytes of the file many times."""
     cells = data.count(separator)
     columns = data.partition(b"\n")[0].count(separator)
     rows = data.count(b"\n")

@@ -1,7 +1,7 @@
-"""Text of a mesh file as lines and numbers, read column by column instead of line by line.
+"""Text of mesh files: lines and numbers, read column by column instead of line by line.
 
-A tidy text has single blanks between tokens and none at either end of a line. Most files are tidy as they are; the
-others are tidied once (`tidy`) after the quick reading has stumbled (`Untidy`).
+A tidy text has single blanks between tokens and none at either end of a line. Most files are tidy; the others are
+tidied once (`tidy`) after the fast reader has failed (`Untidy`).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ BLANK, NEWLINE = 32, 10
 _BLANKS = bytes.maketrans(b"\0\t\v\f\x1c\x1d\x1e\x1f", b" " * 8)
 _TOKEN_PER_LINE = bytes.maketrans(b" ", b"\n")
 _BLOCK = 1 << 23
-# What the C library of Microsoft writes for values that are no numbers: of old, also cut to few digits, and now.
+# NaN and infinity as Microsoft's C library writes them: the old forms, also cut to few digits, and the new ones.
 _INFINITE = re.compile(rb"(?<![^ \n])([+-]?)1\.#INF0*(?=[ \n])")
 _UNDEFINED = re.compile(rb"(?<![^ \n])[+-]?(?:1\.#(?:(?:IND|QNAN|SNAN)0*|J|IO|R|QO|QNB)|nan\((?:ind|snan)\))(?=[ \n])")
 SMALL = 1 << 18
@@ -34,7 +34,7 @@ SMALL = 1 << 18
 
 
 class Untidy(Exception):  # noqa: N818 - a signal between readers, not a failure
-    """The quick reading met a text it cannot take as it stands; in a tidy text `row` (from 0) is at fault."""
+    """Failure of the fast reader on untidy text; in a tidy text `row` (from 0) is malformed."""
 
     def __init__(self, row: int = 0, token: bytes = b""):
         self.row, self.token = row, token
@@ -43,7 +43,7 @@ class Untidy(Exception):  # noqa: N818 - a signal between readers, not a failure
 
 @dataclass(frozen=True)
 class Records:
-    """Rows of numbers: `columns` where all have the same size, else `values`, one row after the other.
+    """Rows of numbers: `columns` if all have the same size, else `values`, concatenated.
 
     sizes: numbers per row, one int for all or (rows,) int64.
     """
@@ -64,7 +64,7 @@ class Records:
 
 
 def decode(text: bytes) -> str:
-    """Words of a file: UTF-8, or Latin-1 where they cannot be that."""
+    """Decode UTF-8, or Latin-1 if the bytes are no UTF-8."""
     try:
         return text.decode("utf-8")
     except UnicodeDecodeError:
@@ -72,8 +72,10 @@ def decode(text: bytes) -> str:
 
 
 def plain_lines(data: bytes) -> bytes:
-    """The same text without byte-order mark, with LF line ends (also at the end) and with blanks as the only white
-    space; `nan` and `inf` for what a C library writes instead, whose `#` would begin a comment."""
+    """Normalise a text: no byte-order mark, LF line ends (also at the end), blanks as the only white space.
+
+    The NaN and infinity of a C library become `nan` and `inf`, since their `#` would begin a comment.
+    """
     if data.startswith(b"\xef\xbb\xbf"):
         data = data[3:]
     if b"\r" in data:
@@ -82,14 +84,14 @@ def plain_lines(data: bytes) -> bytes:
     if any(byte in data for byte in (b"\t", b"\0", b"\v", b"\f")):
         data = data.translate(_BLANKS)
     data = data if data.endswith(b"\n") else data + b"\n"
-    # A single byte is found twenty times faster than a word, and few files have these beyond their head.
+    # The search for a byte is twenty times faster than for a word, and few files have these behind their head.
     if data.find(b"1.#", 0, data.rfind(b"#") + 1) >= 0 or (b"(" in data and (b"(ind)" in data or b"(snan)" in data)):
         data = _UNDEFINED.sub(b"nan", _INFINITE.sub(rb"\1inf", data))
     return data
 
 
 def tidy(data: bytes) -> bytes:
-    """The same lines with single blanks between tokens and none at the ends of a line."""
+    """Reduce blanks to one between tokens and none at the ends of a line."""
     text = np.frombuffer(data, np.uint8)
     parts: list[memoryview] = []
     last = NEWLINE
@@ -109,9 +111,9 @@ def tidy(data: bytes) -> bytes:
 
 
 def without_comments(data: bytes, *, but_in: bytes = b"") -> bytes:
-    """Blanks instead of comments: from a `#` at the start of a word, or anywhere in a record of numbers.
+    """Replace comments by blanks: from a `#` at the start of a word, or anywhere in a record of numbers.
 
-    but_in: first letters of lines that have none.
+    but_in: first letters of lines without comments.
     """
     text = np.frombuffer(data, np.uint8).copy()
     starts = line_starts(text)
@@ -129,7 +131,7 @@ def without_comments(data: bytes, *, but_in: bytes = b"") -> bytes:
 
 
 def drop_empty_lines(data: bytes) -> tuple[bytes, NDArray[np.int64]]:
-    """The lines of a tidy text that are not empty, and the number (from 0) that each had."""
+    """The nonempty lines of a tidy text, and the former number (from 0) of each."""
     text = np.frombuffer(data, np.uint8)
     empty = text == NEWLINE
     ends = np.flatnonzero(empty)
@@ -138,7 +140,7 @@ def drop_empty_lines(data: bytes) -> tuple[bytes, NDArray[np.int64]]:
 
 
 def separates(text: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """Where a token of a tidy text has ended."""
+    """Mask of the bytes that separate tokens in a tidy text."""
     ends: NDArray[np.bool_] = text == BLANK
     ends |= text == NEWLINE
     return ends
@@ -149,13 +151,13 @@ def _occurrences(text: NDArray[np.uint8], byte: int) -> int:
 
 
 def line_starts(text: NDArray[np.uint8]) -> NDArray[np.int64]:
-    """Where each line begins, and at the end where the next one would."""
+    """Offset of each line, and of the end of the text."""
     ends = (np.flatnonzero(text[block] == NEWLINE) + block.start for block in slices(len(text), _BLOCK))
     return np.concatenate([np.zeros(1, np.int64), *(end + 1 for end in ends)])
 
 
 def pick_lines(data: bytes, starts: NDArray[np.int64], wanted: NDArray[np.bool_]) -> bytes:
-    """The wanted lines one after the other, with their line ends."""
+    """The wanted lines, concatenated, with their line ends."""
     edges = np.flatnonzero(np.diff(wanted.view(np.int8), prepend=0, append=0))
     if len(edges) == 2 and edges[0] == 0 and edges[1] == len(wanted):
         return data
@@ -168,7 +170,7 @@ def pick_lines(data: bytes, starts: NDArray[np.int64], wanted: NDArray[np.bool_]
 def read_columns(
     data: bytes, columns: int, dtype: type[np.generic], *, skip: int = 0
 ) -> list[NDArray[np.generic]] | None:
-    """The numbers of lines that all hold `skip` words and then `columns` numbers; None if some line does not.
+    """Read lines of `skip` words and then `columns` numbers; None if any line differs.
 
     Decimal fractions are rounded correctly. dtype: np.float64 or np.int32.
     """
@@ -194,9 +196,9 @@ def read_columns(
 
 
 def read_records(data: bytes, dtype: type[np.generic]) -> Records:
-    """The numbers of lines that each begin with one word that is not a number.
+    """Read the numbers of lines that each begin with one word.
 
-    Errors: Untidy where anything but numbers follows that word, or the text is not tidy.
+    Errors: Untidy for anything but numbers behind that word, or for an untidy text.
     """
     width = len(data[: data.index(b"\n")].split()) - 1
     if 0 < width <= 16 and b"/" not in data[: data.index(b"\n")]:
@@ -221,8 +223,9 @@ def read_records(data: bytes, dtype: type[np.generic]) -> Records:
 
 
 def read_tokens(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
-    """Every token of a tidy text as a number, and which of them are numbers. What follows a `/` in an integer token
-    is ignored.
+    """Read every token of a tidy text as a number, with a mask of the numbers.
+
+    The part of an integer token behind a `/` is ignored.
 
     dtype: np.float64 or np.int32; an integer too large for its type is no number.
     """
@@ -244,7 +247,7 @@ _BEHIND_SLASH = re.compile(rb"/[^\n]*")
 
 
 def _cast(lines: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
-    """The same without the threads of polars: what casts a single column needs none."""
+    """`read_tokens` without the threads of polars: a cast of a single column needs none."""
     import polars as pl
 
     words = (lines if dtype is np.float64 else _BEHIND_SLASH.sub(b"", lines))[:-1].decode("latin-1").split("\n")

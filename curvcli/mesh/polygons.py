@@ -13,7 +13,7 @@ from .surface import Orient, Surface
 from .triangles import cross, dot
 
 _RESERVE = 500_000_000
-"""What intricate polygons of one file may take beyond the usual effort (a few seconds)."""
+"""Largest effort for intricate polygons of one file, beyond the usual one (a few seconds)."""
 
 
 def triangulate(mesh: MeshFile) -> tuple[NDArray[np.int32], NDArray[np.int32] | None, tuple[Notice, ...]]:

@@ -1,1 +1,1 @@
-"""Formats that meshes are read in: each module or folder here declares one and registers it."""
+"""Input formats: each module or folder here declares one and registers it."""

@@ -15,7 +15,7 @@ _V_LINE = re.compile(rb"(?:^|[\r\n])[ \t]*v[ \t]+[-+.\d]\S*[ \t]+[-+.\d]")
 
 
 def has_sign(pieces: Pieces) -> bool:
-    """Whether a `v` record stands near the start, and an `f` record anywhere."""
+    """Test for a `v` record near the start and an `f` record anywhere."""
     if not _V_LINE.search(pieces.ahead()):
         return False
     data = pieces.whole()

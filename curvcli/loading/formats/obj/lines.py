@@ -1,4 +1,4 @@
-"""The lines of an OBJ file by kind, tidied where they have to be."""
+"""Lines of an OBJ file by keyword, with comments and continuations removed where necessary."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...text import BLANK, NEWLINE, Records, Untidy, line_starts, pick_lines, re
 class ObjLines:
     """An OBJ text, its line starts, the first two bytes of each line, and the line's number in the file (from 0).
 
-    tidied: whether the text is known to be tidy, so that what cannot be read is an error.
+    tidied: True for a tidy text, in which a malformed number is an error.
     """
 
     data: bytes
@@ -25,13 +25,13 @@ class ObjLines:
     tidied: bool
 
     def of(self, letter: str) -> NDArray[np.bool_]:
-        """Which lines begin with a keyword of one letter."""
+        """Mask of the lines whose keyword is one letter."""
         lines: NDArray[np.bool_] = self.kind == ord(letter) + 256 * BLANK
         alone = self.kind == ord(letter) + 256 * NEWLINE
         return lines | alone if alone.any() else lines
 
     def place(self, line: int) -> str:
-        """The line as an error names it."""
+        """A line as errors name it."""
         return f"line {int(line if self.numbers is None else self.numbers[line]) + 1}"
 
     def text(self, line: int) -> bytes:
@@ -41,7 +41,7 @@ class ObjLines:
     def records(self, lines: NDArray[np.bool_], dtype: type[np.generic], expected: str) -> Records:
         """The numbers in these lines.
 
-        Errors: Untidy if the text may have to be tidied first, InputError with the line if that does not help.
+        Errors: Untidy if the text must be tidied first, InputError with the line if it is tidy.
         """
         try:
             return read_records(pick_lines(self.data, self.starts, lines), dtype)
@@ -54,7 +54,7 @@ class ObjLines:
 
 
 def split_lines(data: bytes, numbers: NDArray[np.int64] | None = None, *, tidied: bool = False) -> ObjLines:
-    """The lines of a text that ends with a line end."""
+    """Split a text that ends with a line end."""
     text = np.frombuffer(data, np.uint8)
     starts = line_starts(text)
     first, second = text[starts[:-1]], text.take(starts[:-1] + 1, mode="clip")
@@ -67,7 +67,7 @@ def split_lines(data: bytes, numbers: NDArray[np.int64] | None = None, *, tidied
 
 
 def tidy_lines(data: bytes) -> ObjLines:
-    """The lines without comments and with continued lines joined."""
+    """Remove comments and join continued lines."""
     data = tidy(data)
     if b"#" in data:
         data = tidy(without_comments(data))

@@ -1,4 +1,4 @@
-"""Normals of an OBJ file: the `vn` records, by way of the corners that name them."""
+"""Normals of an OBJ file: `vn` records and the corners that refer to them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ...text import pick_lines, read_records
 from .lines import ObjLines
 
 _VN = ord("v") + 256 * ord("n")
-# Corners as the faces name them: v/vt/vn and v//vn keep the last number, v and v/vt have none.
+# Corners: v/vt/vn and v//vn keep the last number, v and v/vt have none.
 _WITHOUT = re.compile(rb"(?<=[ \t])[-+]?\d+(?:/[-+]?\d*)?/?(?=[ \t\r\n])")
 _BEFORE = re.compile(rb"(?<=[ \t])[-+]?\d+/[-+]?\d*/(?=[-+\d])")
 
@@ -20,7 +20,7 @@ _BEFORE = re.compile(rb"(?<=[ \t])[-+]?\d+/[-+]?\d*/(?=[-+\d])")
 def corner_normals(
     lines: ObjLines, is_f: NDArray[np.bool_], corners: NDArray[np.int32], vertices: int
 ) -> NDArray[np.float64] | None:
-    """(3, V) sums of the unit normals at the corners of each vertex, NaN where no corner has one; None without `vn`.
+    """(3, V) sums of the unit normals at the corners of each vertex, NaN without any; None without `vn` records.
 
     corners: the vertex of every corner of every face. Errors: InputError for an index out of range.
     """
@@ -53,7 +53,7 @@ def corner_normals(
 
 
 def _indices(lines: ObjLines, is_f: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The normal's index at every corner of every face, 0 where it has none, and the face of each corner."""
+    """The index of the normal at every corner of every face, 0 for none, and the face of each corner."""
     text = pick_lines(lines.data, lines.starts, is_f)
     records = read_records(_BEFORE.sub(b"", _WITHOUT.sub(b"0", text)), np.int32)
     faces = int(np.count_nonzero(is_f))

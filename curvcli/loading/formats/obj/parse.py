@@ -26,12 +26,12 @@ _IGNORED = frozenset(
 
 
 def parse_obj(data: bytes, *, max_faces: int | None = None, normals: bool = False, texture: bool = False) -> MeshFile:
-    """The content of an OBJ file.
+    """Parse an OBJ file.
 
-    Negative indices count back from the record they stand in. Vertex colours (`v x y z r g b`) become the properties
-    `red`, `green`, `blue`; a rational weight `w` is ignored and counted. normals, texture: read the `vn` records, the
-    `vt` records, too.
-    Errors: InputError with the line of a record that cannot be read or of an index that is out of range.
+    Negative indices count back from their own record. Vertex colours (`v x y z r g b`) become the properties
+    `red`, `green`, `blue`; a rational weight `w` is ignored and counted. normals, texture: also read the `vn`, the `vt`
+    records.
+    Errors: InputError with the line of a malformed record or of an index out of range.
     """
     text = plain_lines(data)
     try:
@@ -85,7 +85,7 @@ def _int32_sizes(sizes: int | NDArray[np.int64], count: int) -> NDArray[np.int32
 def _statements(
     lines: ObjLines, geometry: NDArray[np.bool_], notices: list[Notice]
 ) -> dict[str, tuple[NDArray[np.int64], list[str]]]:
-    """Where each kind of label is set, and to what; all other statements are checked to be known and counted."""
+    """Positions and values of the statements that set labels; other statements are counted, unknown ones refused."""
     kinds = np.flatnonzero(np.bincount(lines.kind, minlength=1 << 16)).tolist()
     quiet = [code for code in kinds if code & 255 in (NEWLINE, ord("#")) or code in (0x6E76, 0x7476)]  # vn, vt
     others = np.flatnonzero(~geometry & ~np.isin(lines.kind, quiet))
@@ -117,7 +117,7 @@ def _statements(
 
 
 def _label(before: NDArray[np.int64], names: list[str], keep: NDArray[np.bool_]) -> Labels:
-    """The label in force at each kept face; `before`: the faces that come before each label statement."""
+    """The label of each kept face. before: number of faces before each label statement."""
     number: dict[str, int] = {}
     codes = np.array([-1, *(number.setdefault(name, len(number)) for name in names)], np.int32)
     each = np.repeat(codes, np.diff(np.concatenate(([0], before, [len(keep)]))))
@@ -143,7 +143,7 @@ def _vertices(
     colours: dict[str, NDArray[np.generic]] = {}
     if np.any(np.asarray(sizes) >= 6):
         some = np.asarray(sizes)
-        skip = np.where(some >= 6, 3 + (some >= 7), some)  # a record without colours has none of the columns asked for
+        skip = np.where(some >= 6, 3 + (some >= 7), some)  # a record without colours has none of these columns
         colours = {name: _column(records, skip + k) for k, name in enumerate(("red", "green", "blue"))}
     weighted = np.isin(sizes, (4, 7))
     if weighted.any():
@@ -177,7 +177,7 @@ def _column(records: Records, k: int | NDArray[np.int64]) -> NDArray[np.float64]
 def _corners(
     lines: ObjLines, wanted: NDArray[np.bool_], is_v: NDArray[np.bool_]
 ) -> tuple[NDArray[np.int32], int | NDArray[np.int64]]:
-    """The vertex indices (from 0) of `f` or `l` records, one after the other, and how many each has."""
+    """The vertex indices (from 0) of `f` or `l` records, concatenated, and the number of each."""
     if not wanted.any():
         return np.empty(0, np.int32), 3
     records = lines.records(wanted, np.int32, "a vertex index")
@@ -204,7 +204,7 @@ def _corners(
 
 
 def _row_of(records: Records, at: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The record that holds each of the given numbers."""
+    """The record of each of the given numbers."""
     if isinstance(records.sizes, int):
         return at // records.sizes
     return np.searchsorted(np.cumsum(records.sizes), at, side="right")

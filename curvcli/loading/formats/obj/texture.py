@@ -1,4 +1,4 @@
-"""Texture coordinates of an OBJ file: the `vt` records, by way of the corners that name them."""
+"""Texture coordinates of an OBJ file: `vt` records and the corners that refer to them."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from ...text import pick_lines, read_records
 from .lines import ObjLines
 
 _VT = ord("v") + 256 * ord("t")
-# Corners as the faces name them: v/vt and v/vt/vn keep the second number, v and v//vn have none.
+# Corners: v/vt and v/vt/vn keep the second number, v and v//vn have none.
 _WITH = re.compile(rb"(?<=[ \t])[-+]?\d+/([-+]?\d+)(?:/[-+]?\d*)?(?=[ \t\r\n])")
 _WITHOUT = re.compile(rb"(?<=[ \t])[-+]?\d+(?://[-+]?\d*|/)?(?=[ \t\r\n])")
 
 
 def corner_texture(lines: ObjLines, is_f: NDArray[np.bool_]) -> NDArray[np.float64] | None:
-    """(2, C) texture coordinates u and v of every corner of every face, NaN where it names none; None without `vt`.
+    """(2, C) texture coordinates u and v of every corner of every face, NaN for none; None without `vt` records.
 
-    A third coordinate is left out, a missing second one is 0. Errors: InputError for an index out of range.
+    A third coordinate is ignored, a missing second one is 0. Errors: InputError for an index out of range.
     """
     is_vt = lines.kind == _VT
     if not is_vt.any():
@@ -47,8 +47,8 @@ def corner_texture(lines: ObjLines, is_f: NDArray[np.bool_]) -> NDArray[np.float
 
 
 def _indices(lines: ObjLines, is_f: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The texture's index at every corner of every face, 0 where it has none, and the face of each corner."""
-    # What names a texture goes into brackets first, so that it is not taken for a vertex without one.
+    """The index of the texture coordinates at every corner of every face, 0 for none, and the face of each corner."""
+    # Corners with a texture index are bracketed first, to tell them from corners without one.
     text = _WITH.sub(rb"<\1>", pick_lines(lines.data, lines.starts, is_f))
     text = _WITHOUT.sub(b"0", text).replace(b"<", b"").replace(b">", b"")
     records = read_records(text, np.int32)

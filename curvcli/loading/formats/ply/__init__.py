@@ -15,7 +15,7 @@ _SIGN = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]*[\r\n]")
 
 
 def has_sign(pieces: Pieces) -> bool:
-    """Whether the first line is `ply`."""
+    """Test for a first line `ply`."""
     return bool(_SIGN.match(pieces.ahead()))
 
 

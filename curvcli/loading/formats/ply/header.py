@@ -41,7 +41,7 @@ TOO_SMALL = "if a count in the header is too small, elements are missing"
 
 @dataclass(frozen=True)
 class Property:
-    """A property of an element; `length` is the type of the count of a list, None for a scalar."""
+    """A property of an element. length: type of the count of a list, None for a scalar."""
 
     name: str
     type: np.dtype[np.generic]
@@ -55,7 +55,7 @@ class Property:
 
 @dataclass(frozen=True)
 class Element:
-    """So many rows of the same properties."""
+    """A number of rows with the same properties."""
 
     name: str
     count: int
@@ -63,13 +63,13 @@ class Element:
 
     @property
     def least_bytes(self) -> int:
-        """The fewest bytes a binary row takes."""
+        """Least number of bytes of a binary row."""
         return sum((p.length or p.type).itemsize for p in self.properties)
 
 
 @dataclass(frozen=True)
 class Header:
-    """elements in file order, whether the body is text, where it begins, the lines before it, and which are unknown."""
+    """Elements in file order, kind and start of the body, number of header lines, and unknown lines."""
 
     elements: tuple[Element, ...]
     ascii: bool
@@ -79,11 +79,11 @@ class Header:
 
 
 def parse_header(data: bytes) -> Header:
-    """The header of a PLY file.
+    """Parse the header of a PLY file.
 
-    Lines with an unknown keyword before the first element, such as a comment without `comment`, are ignored: no data
-    belong to them, and if one was meant to be an element, its properties stand alone.
-    Errors: InputError with the line of a statement that cannot be read.
+    Lines with an unknown keyword before the first element, such as a comment without `comment`, are ignored: they have
+    no data, and a misspelled element leaves properties without an element, which is an error.
+    Errors: InputError with the line of a malformed statement.
     """
     start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
     magic = _MAGIC.match(data, start)
@@ -93,7 +93,7 @@ def parse_header(data: bytes) -> Header:
     end = HEADER_END.search(data, magic.end() - 1)
     if not end:
         raise InputError("no `end_header` found, expected at the end of the PLY header")
-    # Bytes: of a text also what stands in the middle of letters would end a line or a word.
+    # Bytes, since str.split would also split at bytes inside multi-byte characters.
     lines = data[magic.end() : end.start() + 1].replace(newline, b"\n").split(b"\n")[:-1]
     order: str | None = None
     elements: list[tuple[str, int, list[Property]]] = []

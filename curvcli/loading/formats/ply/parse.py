@@ -18,11 +18,11 @@ from .text import read_text_rows
 
 
 def parse_ply(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
-    """The content of a PLY file.
+    """Parse a PLY file.
 
     Scalar properties of vertices and faces are kept, lists other than the corners and other elements are not.
     Triangle strips (`tristrips`, -1 begins a new strip) become triangles of alternating winding.
-    Errors: InputError with the line, or the element and row, that cannot be read.
+    Errors: InputError with the malformed line, or element and row.
     """
     header = _header(pieces)
     pieces.take(header.body)
@@ -57,7 +57,7 @@ def _corner_property(element: Element) -> str:
 
 def _header(pieces: Pieces) -> Header:
     start = pieces.ahead()
-    # What follows the end of the header tells where its line ends.
+    # The bytes behind `end_header` show the kind of line end.
     complete = HEADER_END.search(start, 0, len(start) - 1)
     return parse_header(start if complete else pieces.whole())
 
@@ -104,7 +104,7 @@ def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: li
 
 
 def _refuse_shifted(sizes: NDArray[np.int64], elements: dict[str, Element], name: str, notices: list[Notice]) -> None:
-    """Refuses lists that are read from the wrong place, because the count of an element before them is wrong.
+    """Refuse lists at a wrong offset, caused by a wrong count of an element before them.
 
     A count that is too large ends inside a row of lists, whose last byte is then the length of an empty list; one that
     is too small leaves a row of numbers before the lists, and a row of them after the end.
@@ -128,14 +128,14 @@ def _refuse_shifted(sizes: NDArray[np.int64], elements: dict[str, Element], name
 
 
 def _has_extra_values(notices: list[Notice], name: str) -> bool:
-    """Whether the first row of an element has more values than announced."""
+    """Test whether the first row of an element has more values than announced."""
     return any(n.code == "extra_values" and n.examples[:1] == (0,) and f"`{name}`" in n.message for n in notices)
 
 
 def _checked(
     indices: NDArray[Any], sizes: NDArray[np.int64], name: str, vertices: int, lowest: int = 0
 ) -> NDArray[np.int32]:
-    """The indices, all of them whole and within the list of vertices."""
+    """Check that all indices are whole numbers in range, and return them."""
     if indices.dtype.kind == "f":
         fraction = np.flatnonzero((indices != np.floor(indices)) | np.isinf(indices))
         if len(fraction):
@@ -169,7 +169,7 @@ def _without_short(
 
 
 def _once(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
-    """One of the sizes where they are all the same number, of which there is one in memory."""
+    """The common size as a view of one number if all sizes are equal."""
     return sizes[:1] if sizes.strides == (0,) else sizes
 
 

@@ -1,4 +1,4 @@
-"""The rows of one PLY element, from binary data or from text, column by column."""
+"""Columns of one PLY element, and the reader of its binary rows."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from .header import Element, Property
 
 @dataclass
 class Columns:
-    """scalars by name; lists by name as (length of each row, all items one after the other).
+    """Scalars by name; lists by name as (length of each row, all items concatenated).
 
-    xyz: (3, rows) float64, whose rows are the scalars x, y, z, where they were read as positions.
+    xyz: (3, rows) float64, the scalars x, y, z read as positions.
     """
 
     scalars: dict[str, NDArray[Any]] = field(default_factory=dict)
@@ -28,7 +28,7 @@ class Columns:
 
 
 def read_binary_rows(pieces: Pieces, element: Element) -> Columns:
-    """The columns of an element, of which all bytes are taken, and no more.
+    """Read the columns of an element; takes exactly its bytes.
 
     Errors: InputError where the data end early or a list length is negative.
     """
@@ -67,7 +67,7 @@ def empty_columns(element: Element) -> Columns:
 
 
 def _first_lengths(data: bytes, element: Element) -> list[int | None] | None:
-    """The lengths of the lists of the first row, None for what is no list; None if the data do not hold that row."""
+    """The lengths of the lists of the first row, None for scalars; None if the data end within that row."""
     lengths: list[int | None] = []
     offset = 0
     for p in element.properties:
@@ -82,7 +82,7 @@ def _first_lengths(data: bytes, element: Element) -> list[int | None] | None:
 
 
 def _row_type(element: Element, lengths: list[int | None]) -> np.dtype[Any]:
-    """A row whose lists have the given lengths; fields by number, as names in the file may be odd."""
+    """The dtype of a row with lists of the given lengths; fields by number, since names in the file are arbitrary."""
     fields: list[Any] = []
     for k, (p, length) in enumerate(zip(element.properties, lengths, strict=True)):
         if length is None:
@@ -93,7 +93,7 @@ def _row_type(element: Element, lengths: list[int | None]) -> np.dtype[Any]:
 
 
 def _room(element: Element, lengths: list[int | None]) -> Columns:
-    """Columns to be filled, for rows whose lists have the given lengths."""
+    """Empty columns for rows with lists of the given lengths."""
     columns = Columns()
     for p, length in zip(element.properties, lengths, strict=True):
         if length is None:
@@ -108,7 +108,7 @@ def _room(element: Element, lengths: list[int | None]) -> Columns:
 
 
 def _joined(begin: Columns, rows: int, rest: Columns) -> Columns:
-    """The first rows of some columns, and the rest of them."""
+    """Join the first rows of some columns with the remaining rows."""
     joined = Columns({name: np.concatenate((begin.scalars[name][:rows], rest.scalars[name])) for name in rest.scalars})
     for name, (lengths, items) in rest.lists.items():
         before = begin.lists[name][0][:rows]
@@ -118,10 +118,10 @@ def _joined(begin: Columns, rows: int, rest: Columns) -> Columns:
 
 
 def _read_mixed(pieces: Pieces, element: Element, first: int) -> Columns:
-    """The rows from the first on, whose lists differ in length.
+    """Read the rows from `first` on, with lists of different lengths.
 
-    Each row's place is known only from the row before, so this is the one walk from row to row; what it finds is then
-    gathered at once.
+    The offset of a row depends on the row before, so a Python loop finds the offsets; all values are then gathered at
+    once.
     """
     data, offset = pieces.whole(), 0
     properties = element.properties

@@ -26,9 +26,9 @@ from .rows import Columns, empty_columns
 
 
 def read_text_rows(text: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
-    """The columns of all elements, from what follows the header.
+    """Read the columns of all elements from the text behind the header.
 
-    Errors: InputError with the line of a row that cannot be read.
+    Errors: InputError with the line of a malformed row.
     """
     for element in header.elements:
         if element.count * max(2 * len(element.properties), 1) - 1 > len(text):
@@ -84,7 +84,7 @@ def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[n
 
 
 def _same_layout(rows: _Rows) -> Columns | None:
-    """The columns of rows whose lists are as long as in the first row; None if they are not."""
+    """Read rows with lists as long as in the first row; None if their lengths differ."""
     words = rows.text[: rows.text.index(b"\n")].split()
     layout, at = [], 0
     for p in rows.element.properties:
@@ -115,7 +115,7 @@ def _same_layout(rows: _Rows) -> Columns | None:
 
 
 def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
-    """The columns of rows of any length."""
+    """Read rows of any length."""
     numbers, known = read_tokens(rows.text, np.float64)
     text = np.frombuffer(rows.text, np.uint8)
     separators = np.flatnonzero(separates(text))
@@ -159,7 +159,7 @@ def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
 
 
 def _refuse_wrong_lengths(rows: _Rows, read: Columns, extra: NDArray[np.intp]) -> None:
-    """Refuses a face of fewer than 3 corners in a row with more values: the length of its list is wrong."""
+    """Refuse a face of fewer than 3 corners in a row with more values: the length of its list is wrong."""
     if rows.element.name != "face":
         return
     for p in rows.element.properties:
@@ -182,7 +182,7 @@ def _require(rows: _Rows, enough: NDArray[np.bool_]) -> None:
 
 
 def _typed(values: NDArray[Any], p: Property) -> NDArray[Any]:
-    """Whole numbers in the announced type if they fit, fractions as they are written (a double)."""
+    """Convert whole numbers to the announced type if they fit; fractions stay doubles."""
     if p.type.kind == "f":
         return values.astype(np.float64, copy=False)
     with np.errstate(invalid="ignore"):

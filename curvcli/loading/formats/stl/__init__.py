@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def has_sign(pieces: Pieces) -> bool:
-    """Whether the content is as long as the counter of binary STL says, or begins with `solid` and has a facet."""
+    """Test for the length that the counter of binary STL gives, or for `solid` at the start and a facet."""
     start = pieces.ahead()
     if is_binary_stl(start, pieces.size):
         return True
@@ -21,7 +21,7 @@ def has_sign(pieces: Pieces) -> bool:
 
 
 def any_start(start: bytes, size: int, promised: bool) -> bool:
-    """Whether content is binary STL, the first 80 bytes of which are free."""
+    """Test for binary STL, whose first 80 bytes are free."""
     return is_binary_stl(start, size) or (promised and has_room(start, size))
 
 

@@ -31,14 +31,14 @@ _FULL_FACET = len(b"facet outer loop vertex 0 0 0 vertex 0 0 0 vertex 0 0 0 endl
 
 
 def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None) -> MeshFile:
-    """The content of an STL file: one vertex per distinct position in order of first appearance, or one per corner.
+    """Parse an STL file: one vertex per distinct position in order of first appearance, or one per corner.
 
     Positions are exactly those of the file (float32 in binary files); normals and attributes are ignored.
     Errors: InputError where data are missing or a facet has not three vertices.
     """
     xyz: NDArray[np.float32] | NDArray[np.float64]
     hint = "a surface needs at least one facet"
-    # No text announces fewer facets than it has room for: the letters of its counter are large numbers.
+    # Text never announces fewer facets than it has room for: letters in the counter give large numbers.
     if not has_room(pieces.ahead(), pieces.size) and ASCII_SIGN.match(pieces.whole()):
         data = pieces.rest()
         if b"\0" in data:
@@ -112,12 +112,12 @@ def _read_ascii(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64]
     try:
         return read_ascii_tokens(text, max_faces)
     except InputError as error:
-        # Where each vertex has its own line, the count of them says more than the first wrong token.
+        # With one line per vertex, the wrong number of vertices is a better message than the first wrong token.
         raise (error if problem is None or _VERTEX_BEHIND.search(text) else problem) from None
 
 
 def _share_lines(data: bytes, starts: NDArray[np.int64], first: NDArray[np.integer]) -> bool:
-    """Whether a facet begins behind another statement on its line; only lines that are long enough are looked at."""
+    """Test whether a facet begins behind another statement on its line; only long enough lines are tested."""
     room = np.full(256, _FACET_BEHIND)
     room[list(b"fvoe")] = _FULL_FACET, len(data) + 1, len(b"outer loop"), len(b"endfacet")
     lengths = np.diff(starts) - 1
@@ -169,7 +169,7 @@ def _read_lines(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64]
 
 
 def _check_keywords(data: bytes, starts: NDArray[np.int64], lines: NDArray[np.intp], word: bytes) -> None:
-    """Refuses lines that begin as a keyword does but go on otherwise."""
+    """Refuse lines that begin like a keyword but differ from it."""
     letters = np.frombuffer(data, np.uint8)
     wrong = np.zeros(len(lines), np.bool_)
     for k, letter in enumerate(word + b" "):
@@ -182,7 +182,7 @@ def _check_keywords(data: bytes, starts: NDArray[np.int64], lines: NDArray[np.in
 
 
 def _check_facets(facets: NDArray[np.intp], vertices: NDArray[np.intp]) -> None:
-    """Refuses facets that have not three vertices each."""
+    """Refuse facets without exactly three vertices."""
     if len(vertices) and vertices[0] < facets[0]:
         raise InputError("vertex outside a facet found", place=f"line {int(vertices[0]) + 1}")
     per_facet = np.diff(np.searchsorted(vertices, facets), append=len(vertices))

@@ -10,19 +10,21 @@ ASCII_SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+solid\
 
 
 def is_binary_stl(start: bytes, size: int) -> bool:
-    """Whether content of this size, with this start, is as long as the counter of binary STL says.
+    """Test whether the size is the one that the counter of binary STL gives.
 
-    That decides, whatever the header says; other content may be cut off, or text (`ASCII_SIGN`).
+    The size decides, independently of the header; other content may be truncated, or text (`ASCII_SIGN`).
     """
     return size >= HEADER and announced_size(start) == size
 
 
 def has_room(start: bytes, size: int) -> bool:
-    """Whether content of this size, with this start, has room for the facets that the counter of binary STL announces,
-    at least one: binary STL, possibly with bytes after the last facet."""
+    """Test whether the size has room for the facets that the counter of binary STL announces, at least one.
+
+    Such content is binary STL, possibly with bytes after the last facet.
+    """
     return size >= HEADER and HEADER < announced_size(start) <= size
 
 
 def announced_size(start: bytes | memoryview) -> int:
-    """The size of a binary STL file with the number of facets that the counter holds."""
+    """The size of a binary STL file with the number of facets in the counter."""
     return HEADER + 50 * int.from_bytes(start[80:HEADER], "little")

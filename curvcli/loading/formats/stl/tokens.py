@@ -1,4 +1,4 @@
-"""Text STL as tokens: facets wherever the lines end, and names and comments with any words."""
+"""Token reader of text STL: facets with any line breaks, names and comments with any words."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _NAMES = (b"solid", b"endsolid")
 def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
     """The corners (3, 3 F) of a tidy text, facet by facet: 21 tokens each, or 17 without a normal.
 
-    Names and comments stand between facets; they may hold any words but those of a whole facet.
-    Errors: InputError with the line of the first token that is not the one that a facet has there.
+    Names and comments between facets may have any words but those of a whole facet.
+    Errors: InputError with the line of the first unexpected token of a facet.
     """
     if b"#" in text:
-        # On the line of `solid`, whose name may hold the mark, a comment can only stand behind a facet.
+        # The name on a `solid` line may contain the comment mark: a comment on it is recognised behind a facet only.
         text = _FACETS.sub(lambda found: _COMMENT.sub(b"", found[0]), text)
     tokens = _Tokens.of(text)
     every = np.arange(len(tokens.starts))
@@ -61,7 +61,7 @@ def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.fl
 
 @dataclass(frozen=True)
 class _Tokens:
-    """A tidy text by its tokens. starts: where each begins; ends: which bytes separate them."""
+    """The tokens of a tidy text. starts: offset of each token. ends: offsets of the separators."""
 
     text: bytes
     data: NDArray[np.uint8]
@@ -77,7 +77,7 @@ class _Tokens:
         return cls(text, data, np.flatnonzero(first), ends)
 
     def are(self, places: Places, word: bytes) -> NDArray[np.bool_]:
-        """Which of the tokens are this word, in any case."""
+        """Mask of the tokens equal to a word, in any case."""
         same = places < len(self.starts)
         if not same.any():
             return same
@@ -101,7 +101,7 @@ class _Tokens:
         return np.asarray(numbers, np.float64)
 
     def in_name(self, places: Places, end: Places) -> NDArray[np.bool_]:
-        """Which tokens stand behind `solid` or `endsolid` on their line, with no end of a facet between them."""
+        """Mask of the tokens behind `solid` or `endsolid` on their line, without the end of a facet between them."""
         every = np.arange(len(self.starts))
         named = np.append(-1, every[self.are(every, _NAMES[0]) | self.are(every, _NAMES[1])])
         name = named[np.searchsorted(named, places) - 1]
@@ -111,11 +111,11 @@ class _Tokens:
         return np.asarray((name >= since) & (lines[0] == lines[1]))
 
     def line(self, offset: int) -> str:
-        """The line of a byte."""
+        """Line number of a byte offset."""
         return f"line {1 + self.text.count(bytes([NEWLINE]), 0, offset)}"
 
     def unexpected(self, place: int, word: str) -> InputError:
-        """The error for a token that is not this word, or no number where there is no word."""
+        """The error for a token other than this word, or other than a number if the word is empty."""
         asked = f"`{word}` expected" if word else "a number expected"
         if place >= len(self.starts):
             return InputError(f"the data end inside a facet; {asked}", place=self.line(int(self.starts[-1])))
@@ -125,7 +125,7 @@ class _Tokens:
 
 
 def _between(tokens: _Tokens, begin: Places, end: Places) -> list[Notice]:
-    """The notices of the text outside facets: ends and names of solids, and lines that are neither.
+    """Yield the notices of the text outside facets: ends and names of solids, and other lines.
 
     Errors: InputError for a part of a facet there.
     """
@@ -141,7 +141,7 @@ def _between(tokens: _Tokens, begin: Places, end: Places) -> list[Notice]:
                 part = (found[1] or found[0]).decode()
                 raise InputError(f"`{part}` outside a facet found", place=tokens.line(offset))
             if (words := line.split(b" ", 1))[0] in _NAMES:
-                # Without a name on its line, the next lines have it.
+                # If its line has no name, the next lines have it.
                 named, naming = True, len(words) == 1
             else:
                 unknown += bool(line) and not naming
