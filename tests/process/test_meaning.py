@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.analysis.notices import welding
 from curvcli.api import Analysis
 from curvcli.checks import rules
 from curvcli.errors import InputError, Notice
+from curvcli.mesh.seams import describe_exact_welding
 from curvcli.mesh.surface import Surface
 from curvcli.mesh.welding import weld_exact
 from curvcli.report.build import model
@@ -165,7 +165,7 @@ def test_the_hint_says_what_welding_really_does() -> None:
             surface = Surface(points, random.integers(0, count, (int(random.integers(1, 15)), 3)))
         except InputError:  # every face has a repeated corner
             continue
-        words = welding(surface)
+        words = describe_exact_welding(surface)
         boundary, crowded = welded(surface)
         closed = int(surface.boundary_edges.sum()) - boundary
         more = crowded - int(surface.nonmanifold_edges.sum())
