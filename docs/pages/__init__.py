@@ -12,7 +12,7 @@ from curvcli.report.quantities import page as quantities
 from .checks import page as checks
 from .command_line import page as command_line
 from .keys import page as schemas
-from .suffixes import page_part as outputs
+from .suffixes import hook, inputs, outputs
 from .tables import page_part as columns
 
 # Whole pages by their name in docs/.
@@ -25,16 +25,22 @@ PAGES: dict[str, Callable[[], str]] = {
 
 # Parts of pages: what stands between `<!-- made: NAME -->` and `<!-- end -->`.
 PARTS: dict[str, Callable[[], str]] = {
+    "inputs": inputs,
     "outputs": outputs,
     "columns": columns,
     "advice": advice,
 }
+
+# Beside docs/.
+HOOKS = ".pre-commit-hooks.yaml"
 
 _PART = re.compile(r"(<!-- made: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
 def current(name: str, text: str) -> str:
     """A page as the code would make it now; `text` where it is written by hand, but for the parts that are not."""
+    if name == HOOKS:
+        return hook(text)
     if name in PAGES:
         return PAGES[name]()
     return _PART.sub(lambda found: f"{found[1]}{PARTS[found[2]]()}{found[3]}", text)
@@ -43,9 +49,9 @@ def current(name: str, text: str) -> str:
 def renew(folder: Path) -> list[str]:
     """Make the pages of a folder again; the names of those that changed."""
     changed = []
-    for path in sorted({*folder.glob("**/*.md"), *(folder / name for name in PAGES)}):
+    for path in sorted({*folder.glob("**/*.md"), *(folder / name for name in PAGES), folder.parent / HOOKS}):
         text = path.read_text(encoding="utf-8") if path.exists() else ""
-        new = current(path.relative_to(folder).as_posix(), text)
+        new = current(HOOKS if path.name == HOOKS else path.relative_to(folder).as_posix(), text)
         if new != text:
             path.write_text(new, encoding="utf-8")
             changed.append(str(path))

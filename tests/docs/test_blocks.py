@@ -20,8 +20,8 @@ from tests.docs.shown import OUTPUT, missing
 RUN = ("sh", "python")
 SHOWN = ("text", "yaml", "toml", "json", "make", "snakemake", "dockerfile", "csv")
 
-# `test_add_a_pass.py` follows this page on a copy of the project.
-FOLLOWED = "docs/add-a-pass.md"
+# Tests of their own follow these pages on a copy of the project.
+FOLLOWED = ("docs/add-a-pass.md", "docs/add-a-format.md")
 
 # What a README installs, the continuous integration installs in an empty environment: see `.ci/run`.
 INSTALLS = "pip install"
@@ -30,7 +30,7 @@ INSTALLED = "pip install . && "
 
 def runnable(name: str) -> list[Block]:
     """The blocks of a page that are to run; of the README without the installation."""
-    found = [block for block in blocks(name) if block.language in RUN and not block.reason and name != FOLLOWED]
+    found = [block for block in blocks(name) if block.language in RUN and not block.reason and name not in FOLLOWED]
     if name == "README.md":
         found = [replace(block, code=block.code.removeprefix(INSTALLED)) for block in found]
         return [block for block in found if INSTALLS not in block.code]

@@ -16,6 +16,8 @@ import pytest
 import yaml
 
 from curvcli.commands.names import COMMANDS
+from curvcli.loading.registry import suffixes
+from docs.pages import HOOKS, current
 from tests.helpers.cli.program import ROOT, environment, served
 
 
@@ -49,11 +51,14 @@ def check(action: dict[str, Any], tmp_path: Path) -> Any:
 
 
 def test_the_hook_names_a_command() -> None:
-    (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
+    text = (ROOT / HOOKS).read_text(encoding="utf-8")
+    (hook,) = yaml.safe_load(text)
     program, command = hook["entry"].split()
     assert program == "curvcli"
     assert command in COMMANDS
-    taken = ("a/b.stl", "c.ply", "d.obj", "E.STL", "F.Obj", "g.ply.gz", "H.PLY.GZ")
+    taken = ["E.STL", "F.Obj", "H.PLY.GZ"]
+    taken += [name for end in suffixes() for name in (f"a/b.{end}", f"c.{end.upper()}", f"g.{end}.gz")]
+    assert current(HOOKS, text) == text
     left = ("obj.txt", "a.objx", "a.gz", "stl", "a.ply.gz.bak", "objgz")
     assert [bool(re.search(hook["files"], name)) for name in (*taken, *left)] == [
         *(True for _ in taken),
