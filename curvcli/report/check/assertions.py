@@ -70,13 +70,13 @@ class Assertion:
     def _values(self, analysis: Result) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
         """Values of the column, weights for area_mean, and the elements that count."""
         surface = analysis.surface
-        shown = analysis.column(self.quantity.name)
+        shown = analysis.shown(self.quantity.name)
         if self.quantity.vector:
             shown = shown[:, "xyz".index(self.column[-1])]
         values = shown.astype(np.float64)
         if self.quantity.on == "vertex":
             return values, analysis.columns["star_area"], surface.referenced
-        area = analysis.column("area_of_face") if self.quantity.on == "face" else np.ones(len(values))
+        area = analysis.shown("area_of_face") if self.quantity.on == "face" else np.ones(len(values))
         return values, area, np.ones(len(values), bool)
 
     def _value(self, values: NDArray[np.float64], area: NDArray[np.float64], used: NDArray[np.bool_]) -> float | None:
