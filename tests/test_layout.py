@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[1] / "curvcli"
+NAMED = (ast.Name, ast.Attribute)
 
 # Third-party packages that only some folders import.
 PLACES = {
@@ -65,3 +66,22 @@ def test_a_library_has_its_place(library: str) -> None:
     }
     assert users
     assert not [user for user in users if not user.startswith(PLACES[library])]
+
+
+def names_in(path: Path) -> set[str]:
+    """Every name and attribute in a module."""
+    nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    return {node.attr if isinstance(node, ast.Attribute) else node.id for node in nodes if isinstance(node, NAMED)}
+
+
+def test_commands_print_by_one_function() -> None:
+    """`talk` writes to stdout and stderr; `main` ends a line of the terminal and prints the help of no arguments."""
+    commands = (PACKAGE / "commands").rglob("*.py")
+    assert {path.name for path in commands if "echo" in names_in(path)} == {"talk.py", "main.py"}
+
+
+def test_one_cache() -> None:
+    """Beside `cached_property`: of objects in `support/cache`, of bounded size for neighbourhoods."""
+    users = {path.relative_to(PACKAGE).as_posix() for path in SOURCES.values() if "WeakKeyDictionary" in names_in(path)}
+    assert users == {"support/cache.py", "mesh/neighbourhoods.py"}
+    assert not [module for module, path in SOURCES.items() if "lru_cache" in names_in(path)]

@@ -15,7 +15,7 @@ from ..checks import Check, rules
 from ..checks.listing import summarise_checks
 from ..curvatures.catalogue import at_scales
 from ..curvatures.engine import evaluate, in_file_unit, prepare, schedule
-from ..curvatures.quantity import AT_SCALE, CELL_AREA, Element, Quantity
+from ..curvatures.quantity import AT_SCALE, CELL_AREA, Element
 from ..curvatures.registry import passes
 from ..errors import Notice
 from ..loading.labels import Regions, cut_along_regions, find_regions, region_notices
@@ -75,7 +75,6 @@ class Result:
         self.columns = {name: computed[name] for name in wanted}
         self.besides = {name: computed[name] for name in besides}
         self._shown: dict[str, Array] = {}
-        self._named: dict[Element, dict[str, tuple[Quantity, int | None]]] = {}
         self.cut: Result | None = None
         if regions is not None:
             cut, self.cut_groups = cut_along_regions(surface, regions)
@@ -160,9 +159,7 @@ class Result:
 
     def _columns_of(self, element: Element) -> Columns:
         """Columns refer to their analysis, so the analysis does not keep them: a cycle would hold its memory."""
-        if element not in self._named:
-            self._named[element] = named(self, element)
-        return Columns(self, self._named[element])
+        return Columns(self, named(self, element))
 
     # ------------------------------------------------------------------ integrals
 

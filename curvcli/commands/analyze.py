@@ -6,35 +6,27 @@ import os
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import (
-    FAILED_CHECK,
-    OK,
-    CurvcliError,
-    LackingError,
-    OutputError,
-    UsageError,
-    exit_code,
-    exit_code_of_one,
-    stops_all,
-    worst,
-)
+from ..errors import FAILED_CHECK, OK, OutputError, UsageError, worst
 from ..loading.limits import parse_weld
-from ..support.memory import is_out_of_memory, trim_heap
 from . import options
 from .bounds import bounded
 from .configured import configuration
-from .outputs import one_stdout, stdin_once, table_option
+from .meshes import each_mesh
+from .outputs import one_stdout, stdin_once, table_option, tell
 from .stems import stem
-from .talk import internal, say
+from .talk import put, say
 
 if TYPE_CHECKING:
     from ..analysis.result import Result
     from ..output.appearance import Appearance
+    from ..output.atomic import Outputs
     from ..output.formats import Kind
+    from ..report.model import Report
 
 
 @click.command("analyze", short_help="Compute curvatures: tables, coloured meshes, the report.")
@@ -145,38 +137,23 @@ class Run:
         """Analyse every mesh; one bad mesh does not stop the rest."""
         from ..output.atomic import Outputs
 
-        codes, reports = [], []
         # Every output of every mesh is checked before the first mesh is read.
         wanted = [path for paths in self.paths for path in paths]
         wanted += [path for tables in self.tables for _, path in tables]
         with Outputs(wanted, self.force) as everything:
-            for mesh, paths, tables in zip(self.meshes, self.paths, self.tables, strict=True):
-                try:
-                    report, code = self.done(mesh, paths, tables, everything)
-                    reports.append(report)
-                    codes.append(code)
-                except CurvcliError as error:
-                    if len(self.meshes) == 1 or stops_all(error):
-                        raise
-                    say(f"{mesh}: {error}" if isinstance(error, LackingError) else str(error))
-                    codes.append(exit_code_of_one(error))
-                except (MemoryError, OSError):
-                    raise
-                except Exception as error:
-                    if len(self.meshes) == 1 or is_out_of_memory(error):
-                        raise
-                    say(f"{mesh}: {internal(error)}")
-                    codes.append(exit_code(error))
+            ended = each_mesh(
+                self.meshes, lambda number: self.done(number, everything), lambda mesh, message, code: (None, code)
+            )
         if self.as_json:
             from ..report.model import encode
 
-            sys.stdout.buffer.write(encode(reports[0] if len(self.meshes) == 1 else reports))
-        return worst(codes)
+            reports = [report for report, _ in ended if report is not None]
+            put(encode(reports[0] if len(self.meshes) == 1 else reports))
+        return worst([code for _, code in ended])
 
-    def done(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> tuple[Any, int]:
+    def done(self, number: int, outputs: Outputs) -> tuple[Report | None, int]:
         """Analyse one mesh, then free the analysis; return its report, if it is printed later, and the exit code."""
-        trim_heap()  # of the mesh before
-        analysis = self.one(mesh, paths, tables, outputs)
+        analysis = self.one(self.meshes[number], self.paths[number], self.tables[number], outputs)
         return self.tell(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
 
     def one(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Result:
@@ -232,22 +209,18 @@ class Run:
         kinds = {format_of(path, name=name if path == "-" else None).kind for path in paths}
         return said or not kinds <= {"table", "mesh", "picture"}
 
-    def tell(self, analysis: Result) -> Any:
+    def tell(self, analysis: Result) -> Report | None:
         """Print one analysis on stdout; return its report if it is printed later."""
-        if self.as_json:
-            from ..report.build import model
+        from ..report.build import build, model
 
-            return model(analysis)
-        if self.get:
-            from ..report.build import build
-            from ..report.lookup import look_up
-
-            report = build(analysis)
-            click.echo("\n".join([look_up(report, key) for key in self.get]))
-        elif not self.to_stdout and not self.quiet:
+        def summary() -> None:
             from ..report.terminal.summary import show
 
             show(analysis, self.verbose)
+
+        if self.as_json:
+            return model(analysis)
+        tell(partial(build, analysis), summary, False, self.get, self.quiet or self.to_stdout)
         return None
 
 

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import CurvcliError, LackingError, exit_code, exit_code_of_one, stops_all, worst
+from ..errors import LackingError, worst
 from ..loading.limits import parse_weld
-from ..support.memory import is_out_of_memory, trim_heap
 from . import options
 from .bounds import bounded
 from .configured import configuration
+from .meshes import each_mesh
 from .outputs import stdin_once
-from .talk import internal, say
+from .talk import put, say
 
 if TYPE_CHECKING:
     from ..report.check.model import CheckedMesh, CheckReport
@@ -116,10 +116,12 @@ class Run:
     def all(self) -> int:
         """Check every mesh and write the report; return the exit code."""
         from ..output.atomic import Outputs
-        from ..report.check.model import report_of
+        from ..report.check.model import failed_input, report_of
 
         with Outputs([] if self.output == "-" else [self.output], self.force) as outputs:
-            found = [self.one(mesh) for mesh in self.meshes]
+            found = each_mesh(
+                self.meshes, lambda number: self.judged(self.meshes[number]), failed_input, alone=LackingError
+            )
             code = worst([mesh.exit_code for mesh in found])
             report = report_of(self.plan.rules, found, code, configuration())
             if self.output == "-":
@@ -129,27 +131,6 @@ class Run:
                     stream.write(self.written(report))
                 self.tell(report)
         return report.exit_code
-
-    def one(self, mesh: str) -> CheckedMesh:
-        """Outcome for one mesh; the error of a mesh that cannot be checked is printed on stderr at once."""
-        from ..report.check.model import failed_input
-
-        trim_heap()  # of the mesh before
-        try:
-            return self.judged(mesh)
-        except CurvcliError as error:
-            if stops_all(error) or (len(self.meshes) == 1 and isinstance(error, LackingError)):
-                raise
-            problem = str(error).removeprefix(f"{mesh}: ")
-            say(f"{mesh}: {problem}" if isinstance(error, LackingError) else str(error))
-            return failed_input(mesh, problem, exit_code_of_one(error))
-        except (MemoryError, OSError):
-            raise
-        except Exception as error:
-            if len(self.meshes) == 1 or is_out_of_memory(error):
-                raise
-            say(f"{mesh}: {internal(error)}")
-            return failed_input(mesh, internal(error), exit_code(error))
 
     def judged(self, mesh: str) -> CheckedMesh:
         """Load the mesh, compute its columns and judge it."""
@@ -176,7 +157,7 @@ class Run:
     def show(self, report: CheckReport) -> None:
         """Print the report on stdout; with -q, not as text."""
         if self.format != "text":
-            sys.stdout.buffer.write(self.written(report))
+            put(self.written(report))
         elif not self.quiet and any(mesh.status != "error" for mesh in report.meshes):
             from ..report.terminal.check import show
 

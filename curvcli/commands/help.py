@@ -8,6 +8,7 @@ import click
 
 if TYPE_CHECKING:
     from .topics import Topic
+from .talk import put
 
 
 @click.command("help", short_help="Explain a topic or a command; without one, list the topics.")
@@ -27,7 +28,7 @@ def command(topic: str | None) -> int:
         return 0
     key = topic.lower().replace("_", "-")
     if key in TOPICS:
-        click.echo(TOPICS[key].text(), nl=False)
+        put(TOPICS[key].text())
         return 0
     of_command(topic, TOPICS)
     return 0
@@ -38,8 +39,9 @@ def overview(topics: dict[str, Topic]) -> None:
     formatter = click.HelpFormatter(width=100)
     with formatter.section("Topics, `curvcli help TOPIC`"):
         formatter.write_dl([(name, topic.summary) for name, topic in topics.items()])
-    click.echo(
-        formatter.getvalue() + "\nOptions of a command: `curvcli COMMAND --help`; one quantity: `curvcli passes NAME`."
+    put(
+        formatter.getvalue()
+        + "\nOptions of a command: `curvcli COMMAND --help`; one quantity: `curvcli passes NAME`.\n"
     )
 
 
@@ -58,4 +60,4 @@ def of_command(name: str, topics: dict[str, Topic]) -> None:
         way_out = suggestion(name, [*topics, *COMMANDS], "`curvcli help` lists them")
         raise click.UsageError(f"no topic or command is called {name!r}{way_out}", click.get_current_context())
     with click.Context(found, info_name=name, parent=context, max_content_width=100) as inner:
-        click.echo(found.get_help(inner))
+        put(found.get_help(inner) + "\n")

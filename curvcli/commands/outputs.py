@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,6 +11,7 @@ from click.core import ParameterSource
 
 from ..errors import UsageError
 from ..support.words import suggestion
+from .talk import put
 
 if TYPE_CHECKING:
     from ..output.formats import Format, Kind
@@ -90,11 +90,11 @@ def tell(
     if as_json:
         from ..report.model import encode
 
-        sys.stdout.buffer.write(encode(report()))
+        put(encode(report()))
     elif get:
         from ..report.lookup import look_up
 
         found = report()
-        click.echo("\n".join([look_up(found, key) for key in get]))
+        put("".join([f"{look_up(found, key)}\n" for key in get]))
     elif not quiet:
         summary()

@@ -6,6 +6,7 @@ import click
 
 from ..support.words import escape_text
 from . import options
+from .talk import put
 
 
 @click.command("passes", short_help="List every quantity, or explain one.")
@@ -24,12 +25,12 @@ def command(name: str | None, as_json: bool, markdown: bool) -> None:
     if markdown:
         from ..report.quantities import page
 
-        click.echo("\n".join(map(escape_text, page().split("\n"))), nl=False)
+        put("\n".join(map(escape_text, page().split("\n"))))
     elif as_json:
         from ..report.model import encode
         from ..report.quantities import as_data
 
-        click.echo(encode(as_data(name)), nl=False)
+        put(encode(as_data(name)))
     else:
         from ..report.terminal.quantities import describe, listing
 

@@ -13,7 +13,6 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
-import click
 import msgspec
 
 from .._version import __version__
@@ -27,6 +26,7 @@ from ..report.model import Report, encode
 from ..report.model import schema as report_schema
 from ..report.quantities import Facts
 from ..support.words import escape_json
+from .talk import put
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 FOLDER = Path(__file__).parent / "data" / "schemas"
@@ -82,7 +82,7 @@ def write() -> None:
 def say(name: str) -> None:
     """Print one schema on stdout."""
     text = json.dumps(json.loads(SCHEMAS[name].printed()), indent=2, ensure_ascii=False)
-    click.echo(escape_json(text.encode("utf-8")).decode("utf-8"))
+    put(escape_json(text.encode("utf-8")).decode("utf-8") + "\n")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Messages on stderr: one line at a time, printable whatever they quote."""
+"""Output on stdout, and messages on stderr: one line at a time, printable whatever they quote."""
 
 from __future__ import annotations
 
@@ -18,6 +18,11 @@ _SHOWN = 1000
 def say(message: str) -> None:
     """Print one line on stderr; if stderr is closed, the exit code remains."""
     click.echo(f"curvcli: {one_line(message)}", err=True)
+
+
+def put(data: str | bytes) -> None:
+    """Print text or bytes on stdout; every command prints by this function or by the console of `report/terminal`."""
+    click.echo(data, nl=False)
 
 
 def one_line(text: str) -> str:

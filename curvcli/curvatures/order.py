@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from functools import cache
+from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
 _Item = TypeVar("_Item")
@@ -31,12 +30,12 @@ TOTALS = (
 )
 
 
-def ordered(items: Iterable[_Item], name: Callable[[_Item], str], order: tuple[str, ...] = COLUMNS) -> list[_Item]:
-    """The items by the place of their names in an order; those without a place follow as they come."""
-    place = _places(order)
-    return sorted(items, key=lambda item: place.get(name(item), len(place)))
+# The place of each name in its order.
+COLUMN_PLACES, TOTAL_PLACES = ({name: place for place, name in enumerate(order)} for order in (COLUMNS, TOTALS))
 
 
-@cache
-def _places(order: tuple[str, ...]) -> dict[str, int]:
-    return {listed: number for number, listed in enumerate(order)}
+def ordered(
+    items: Iterable[_Item], name: Callable[[_Item], str], places: Mapping[str, int] = COLUMN_PLACES
+) -> list[_Item]:
+    """The items by the places of their names; those without a place follow as they come."""
+    return sorted(items, key=lambda item: places.get(name(item), len(places)))

@@ -19,7 +19,7 @@ from ..loading.load import as_surface
 from ..mesh.scale import PARAMETERS
 from ..support.words import suggestion
 from .engine import evaluate, in_file_unit
-from .order import TOTALS, ordered
+from .order import TOTAL_PLACES, ordered
 from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity
 
 # The names of scales at the end of a column: `3rings`, `2.5e`, `r0.1`.
@@ -156,7 +156,7 @@ class Registry(Mapping[str, Pass]):
     def totals(self) -> list[Quantity]:
         """Quantities with a total, in the order of the report."""
         declared = (quantity for quantity in self._declared() if quantity.total)
-        return ordered(declared, lambda quantity: quantity.total or "", TOTALS)
+        return ordered(declared, lambda quantity: quantity.total or "", TOTAL_PLACES)
 
     def column(self, name: str, on: Element = "vertex") -> Quantity | None:
         """The quantity that a column of a table belongs to, also of one at a scale (`K_fit_2e`); None for another."""

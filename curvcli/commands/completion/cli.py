@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from ...support.words import escape_text
+from ..talk import put
 from . import shells
 
 _SHELL = click.argument("name", metavar="[SHELL]", required=False, type=click.Choice(shells.SHELLS))
@@ -30,8 +31,8 @@ def install(name: str | None) -> int:
     """Write the script to the completion folder of the shell and, for bash and zsh, the lines that load it."""
     one = shells.shell(name)
     for path, changed in shells.install(one):
-        click.echo(f"{'written' if changed else 'unchanged'}: {escape_text(str(path))}")
-    click.echo(f"new {one.name} shells complete `curvcli`; to undo: `curvcli completion remove {one.name}`")
+        put(f"{'written' if changed else 'unchanged'}: {escape_text(str(path))}\n")
+    put(f"new {one.name} shells complete `curvcli`; to undo: `curvcli completion remove {one.name}`\n")
     return 0
 
 
@@ -42,7 +43,7 @@ def remove(name: str | None) -> int:
     one = shells.shell(name)
     for path, changed in shells.remove(one):
         did = "nothing to remove" if not changed else "removed" if path == one.script else "block removed"
-        click.echo(f"{did}: {escape_text(str(path))}")
+        put(f"{did}: {escape_text(str(path))}\n")
     return 0
 
 
@@ -50,5 +51,5 @@ def remove(name: str | None) -> int:
 @_SHELL
 def show(name: str | None) -> int:
     """Print the script, for a start-up file that you manage yourself."""
-    click.echo(shells.source(shells.shell(name).name), nl=False)
+    put(shells.source(shells.shell(name).name))
     return 0

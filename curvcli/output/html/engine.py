@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from importlib.resources import files
 
 VERSION = "0.147.0"
@@ -13,7 +12,6 @@ SCRIPTS = ("three.min.js", "TrackballControls.js")
 LICENSE = "LICENSE"
 
 
-@cache
 def engine() -> str:
     """The library as JavaScript behind the text of its licence; it defines THREE with THREE.TrackballControls."""
     folder = files(__package__).joinpath("three")

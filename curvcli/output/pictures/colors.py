@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -209,7 +209,7 @@ def parse_range(value_range: str | None) -> tuple[float | None, float | None, fl
     return low, high, None
 
 
-@lru_cache(maxsize=8)
+@cache
 def _gradient(name: str, steps: int = _STEPS) -> NDArray[np.uint8]:
     """The colours of a map by its name in the `cmap` catalogue; a trailing `_r` reverses it."""
     from cmap import Catalog, Colormap
