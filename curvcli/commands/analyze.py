@@ -16,7 +16,7 @@ from ..loading.limits import parse_weld
 from . import options
 from .bounds import bounded
 from .configured import configuration
-from .meshes import each_mesh
+from .meshes import each_mesh, input_of
 from .outputs import one_stdout, stdin_once, table_option, tell
 from .stems import stem
 from .talk import put, say
@@ -166,9 +166,8 @@ class Run:
         from .progress import phase
 
         with phase(f"reading {mesh}", self.quiet) as reading:
-            source = sys.stdin.buffer if mesh == "-" else mesh
             asked = {key: self.conventions[key] for key in ("orient", "normals")}
-            surface = load(source, weld=self.weld, **asked, **self.limits)
+            surface = load(input_of(mesh), weld=self.weld, **asked, **self.limits)
         with phase(f"computing {mesh}", self.quiet) as computing:
             request = Request(passes=self.passes, weld=self.weld, besides=self.besides, **self.conventions)
             analysis = compute(surface, request, Result)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +13,7 @@ from ..loading.limits import parse_weld
 from . import options
 from .bounds import bounded
 from .configured import configuration
-from .meshes import each_mesh
+from .meshes import each_mesh, input_of
 from .outputs import stdin_once
 from .talk import put, say
 
@@ -141,9 +140,8 @@ class Run:
         from .progress import phase
 
         with phase(f"reading {mesh}", self.quiet):
-            source = sys.stdin.buffer if mesh == "-" else mesh
             asked = {key: self.conventions[key] for key in ("orient", "normals")}
-            surface = load(source, weld=self.weld, **asked, **self.limits)
+            surface = load(input_of(mesh), weld=self.weld, **asked, **self.limits)
         with phase(f"checking {mesh}", self.quiet):
             request = Request(
                 passes=self.plan.passes or ["topology"],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from ..loading.limits import parse_weld
 from . import options
 from .bounds import bounded
 from .configured import configuration
+from .meshes import input_of
 from .outputs import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
@@ -184,8 +184,7 @@ def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]
     texture, surfaces = b == TEXTURE, []
     for path in (a,) if texture else (a, b):
         with phase(f"reading {path}", quiet):
-            source = sys.stdin.buffer if path == "-" else path
-            surfaces.append(load(source, weld=weld, texture=texture, **limits))
+            surfaces.append(load(input_of(path), weld=weld, texture=texture, **limits))
     with phase("computing", quiet):
         found = TextureMap(*surfaces) if texture else SurfaceMap(*surfaces)
         _ = found.checks

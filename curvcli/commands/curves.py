@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
 from .bounds import bounded
+from .meshes import input_of
 from .outputs import one_stdout, tables_and_reports, tell
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ def _read(file: str, weld: str | float, max_writhe: int, quiet: bool, limits: di
     from .progress import phase
 
     with phase(f"reading {file}", quiet):
-        found = curves_of_file(read_mesh_file(sys.stdin.buffer if file == "-" else file, weld=weld, **limits))
+        found = curves_of_file(read_mesh_file(input_of(file), weld=weld, **limits))
     with phase(f"computing {file}", quiet):
         measures = CurveMeasures(found, max_writhe=max_writhe)
         _ = measures.identities

@@ -1,15 +1,21 @@
-"""Loop over the meshes of a command: an error in one mesh does not stop the others."""
+"""Read the meshes of a command one after the other: an error in one does not stop the others."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import BinaryIO, TypeVar
 
 from ..errors import CurvcliError, LackingError, exit_code, exit_code_of_one, stops_all
 from ..support.memory import is_out_of_memory, trim_heap
 from .talk import internal, say
 
 _Made = TypeVar("_Made")
+
+
+def input_of(path: str) -> str | BinaryIO:
+    """The path, or stdin for `-`."""
+    return sys.stdin.buffer if path == "-" else path
 
 
 def each_mesh(

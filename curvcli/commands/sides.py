@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, UsageError
 from ..loading.limits import parse_weld
+from .meshes import input_of
 from .progress import phase
 
 if TYPE_CHECKING:
@@ -111,9 +111,8 @@ def analysed_side(
     with phase(f"reading {path}", quiet):
         if path != "-" and limits["input_format"] is None:
             _check_suffix(path)
-        source = sys.stdin.buffer if path == "-" else path
         asked = {key: settings[key] for key in ("weld", "orient", "normals") if key in settings}
-        surface = load(source, **asked, **limits)
+        surface = load(input_of(path), **asked, **limits)
     with phase(f"computing {path}", quiet):
         analysis = compute(surface, Request(passes=names or ("core",), **settings), Result)
         report = build(analysis)

@@ -51,9 +51,8 @@ def test_who_insists_need_not_wait(small: Path) -> None:
 
 
 def test_it_listens_before_it_imports_more_than_signals() -> None:
-    program = (
-        "import signal, sys\nbefore = set(sys.modules)\nfrom curvcli.__main__ import main\nprint(*set(sys.modules) - before)\n"
-    )
+    program = "import signal, sys\nbefore = set(sys.modules)\nfrom curvcli.__main__ import main\n"
+    program += "print(*set(sys.modules) - before)\n"
     done = subprocess.run([sys.executable, "-c", program], env=environment(), capture_output=True, text=True)
     assert set(done.stdout.split()) <= {"__future__", "curvcli", "curvcli._version", "curvcli.__main__"}
 
