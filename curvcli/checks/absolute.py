@@ -1,4 +1,4 @@
-"""Total absolute curvature is at least what the topology demands."""
+"""Lower bound of total absolute curvature by topology (Chern–Lashof, Kuiper)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Balance of forces: what the surface pulls at its boundary, its mean curvature pulls back inside."""
+"""Force and torque balance: boundary conormals against the mean curvature vectors inside."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def vector_sum(segments: Segments, vectors: Iterable[Column]) -> Floats:
 
 
 def boundary_segments(groups: Groups, half_edges: Index) -> Segments:
-    """The groups of the faces of some half-edges."""
+    """Segments of some half-edges by the groups of their faces."""
     label = None if groups.faces.label is None else groups.face[half_edges // 3]
     return Segments(label, groups.count, len(half_edges))
 
@@ -36,7 +36,7 @@ def _boundary(surface: Surface, groups: Groups) -> tuple[Segments, VectorColumn,
 
 
 def _offset(surface: Surface, axis: int) -> Column:
-    """(V,) a coordinate about the base; a vertex that no face uses may lie anywhere, and its vectors are null."""
+    """(V,) a coordinate about the base; unreferenced vertices may lie anywhere, but their vectors are null."""
     offset: Column = surface.xyz[axis] - surface.base[axis]
     return offset
 
@@ -96,10 +96,10 @@ def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_e
     value = vector_sum(groups.vertices, _cross_offset(surface, H_vec))
     expected = vector_sum(segments, cross(midpoint, conormal))
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, star_extent)))
-    # Taken about the base, where rounding is least, then moved to the origin.
+    # Computed about the base, for the least rounding, then moved to the origin.
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p × H_p against Σ m × η|e|")
     outcome.residual = np.sqrt(((value - expected) ** 2).sum(axis=1))
-    with np.errstate(over="ignore", invalid="ignore"):  # at the end of the range no double holds the moments: null
+    with np.errstate(over="ignore", invalid="ignore"):  # moments that overflow are null
         outcome.value = value + np.cross(surface.base, vector_sum(groups.vertices, H_vec))
         outcome.expected = expected + np.cross(surface.base, vector_sum(segments, conormal))
     exclude_null(outcome, groups, surface, np.isnan(H_vec[0]), "H_vec")
@@ -147,7 +147,7 @@ def vector_area(
     swept = [0.5 * part * times for part in cross(a, b)]
     expected, value = vector_sum(segments, swept), vector_sum(groups.vertices, A_vec)
     span = 0.5 * np.sqrt(dot(a, a)) * np.sqrt(dot(b, b)) * np.abs(times)
-    # A needle's area vector, computed to twice the digits, still has an error of ε² times a product of its edges.
+    # The area vector of a needle, in compensated arithmetic, has an error of ε² times a product of its edges.
     needles = EPSILON * groups.vertices.sum(star_extent**2)
     outcome = Outcome(
         value,

@@ -1,4 +1,4 @@
-"""What a check is: an identity with both its sides, its residual, and a tolerance that is an error bound."""
+"""Check: an identity with both sides, residual and a derived error bound as tolerance."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-# What is said of every group, or of each.
+# One text for all groups, or a text per group.
 Words = str | Callable[[int], str]
 
 # The numbers of a check, in the order of its fields.
@@ -32,7 +32,7 @@ class Check:
     """One identity on one piece of the surface.
 
     status: pass, fail or not_applicable (detail says why). value, expected: both sides, numbers or vectors.
-    residual: |value − expected|. tolerance: the largest residual that rounding can explain.
+    residual: |value − expected|. tolerance: the bound of the rounding error of the residual.
     """
 
     name: str
@@ -50,8 +50,8 @@ class Outcome:
     """An identity on every group at once.
 
     value, expected: (G,) or (G, 3). tolerance: (G,). length_exponent: of value, expected, residual and tolerance.
-    excluded: reasons with the groups they exclude. detail: what is said of a group that is tested.
-    residual: (G,) where it is not the length of value − expected.
+    excluded: reasons with masks of the groups they exclude. detail: a remark on a tested group.
+    residual: (G,) if it differs from the length of value − expected.
     """
 
     value: Floats
@@ -63,7 +63,7 @@ class Outcome:
     excluded: list[tuple[Mask, Words]] = field(default_factory=list)
 
     def exclude(self, mask: Mask, reason: Words) -> None:
-        """Groups on which the identity does not apply; the first reason given stands."""
+        """Exclude the groups of a mask; the first reason of a group stands."""
         self.excluded.append((mask, reason))
 
 
@@ -71,8 +71,8 @@ class Outcome:
 class CheckRule:
     """A registered check: a function of the surface, the groups and the quantities that its parameters name.
 
-    statement: the identity. gap: what a failure says is not zero, or too large. applies: where it can be tested.
-    bound: how the tolerance is derived. failure: what a failure means.
+    statement: the identity. gap: the residual as failures name it. applies: the condition for a test.
+    bound: the derivation of the tolerance. failure: the meaning of a failure.
     """
 
     name: str
@@ -85,13 +85,13 @@ class CheckRule:
     failure: str = ""
 
     def __reduce__(self) -> tuple[Callable[[str], CheckRule], tuple[str]]:
-        """Processes that pass it on name it: its function stands in its module under the name of the rule."""
+        """Pickle a rule by its name."""
         return rule_of, (self.name,)
 
     def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
-        """The check on every group."""
+        """Evaluate the check on every group."""
         outcome = self.function(surface, groups, *(columns[name] for name in self.needs))
-        with np.errstate(invalid="ignore"):  # sides that no double holds
+        with np.errstate(invalid="ignore"):  # infinite sides
             gap = outcome.value - outcome.expected
         residual = outcome.residual
         if residual is None:
@@ -125,12 +125,12 @@ rules: dict[str, CheckRule] = {}
 
 
 def rule_of(name: str) -> CheckRule:
-    """The registered check of a name."""
+    """The registered check with a name."""
     return rules[name]
 
 
 def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., Outcome]], CheckRule]:
-    """Register a check under its function's name; its parameters after surface and groups name what it needs.
+    """Register a check under its function's name; its parameters after surface and groups are the quantities it needs.
 
     The keywords are the fields of `CheckRule` for people; the function's docstring is the identity.
     """
@@ -148,14 +148,14 @@ def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Call
 def rounding(surface: Surface, absolute: Floats) -> Floats:
     """The error bound of a pairwise sum over the mesh: (16 + log₂ N) ε times the sum of the absolute terms.
 
-    To it comes what underflow may have taken from each face, which is nothing beside a mesh of any size in its unit.
+    The underflow of every face is added, which is negligible in the unit of computation.
     """
     lost = surface.n_faces * NO_AREA * 2**16
     return (16 + math.log2(3 * surface.n_faces + surface.n_vertices)) * EPSILON * absolute + lost
 
 
 def exclude_null(outcome: Outcome, groups: Groups, surface: Surface, null: Mask, what: str) -> None:
-    """An identity cannot be tested where one of its terms is undefined at a vertex that a face uses."""
+    """Exclude the groups in which a term of the identity is null at a referenced vertex."""
     where = np.flatnonzero(null & surface.referenced)
     if not len(where):
         return
@@ -165,7 +165,7 @@ def exclude_null(outcome: Outcome, groups: Groups, surface: Surface, null: Mask,
     first[group[::-1]] = where[::-1]
 
     def reason(g: int) -> str:
-        # A region has vertices of its own, whose numbers nobody knows.
+        # The vertices of a region are copies, without numbers in the file.
         known = groups.kind != "region"
         if count[g] == 1:
             return f"{what} is undefined at {f'vertex {first[g]}' if known else 'one vertex'}"
@@ -179,7 +179,7 @@ def _said(words: Words, group: int) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """A number or a list of numbers; null where no double holds it."""
+    """A number or a list of numbers; None for NaN and infinity."""
     if isinstance(value, list):
         return [_plain(x) for x in value]
     return or_none(value)

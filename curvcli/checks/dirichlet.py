@@ -1,4 +1,4 @@
-"""The identity is as harmonic as the surface is minimal."""
+"""Dirichlet energy of the identity map against area, and their gradients."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def dirichlet(
     value, expected = groups.faces.sum(dirichlet), groups.faces.sum(face_area)
     tolerance = rounding(surface, groups.faces.sum(dirichlet_terms))
     gap = dirichlet_gradient + star_curvature
-    # Each gradient is a running sum over the star, so its bound grows with the number of faces there.
+    # Each gradient is a running sum over the star, so that its bound grows with the number of faces.
     allowed = (16 + surface.corner_count) * EPSILON * dirichlet_gradient_terms
     with np.errstate(divide="ignore", invalid="ignore"):
         strain = np.where(allowed > 0, np.sqrt(dot(gap, gap)) / allowed, np.nan)
@@ -45,7 +45,7 @@ def dirichlet(
     def detail(g: int) -> str:
         return f"E(id) against the area; ∇_p E(id) differs from ∇_p area by at most {worst[g]:.2g} of what is allowed"
 
-    # Both must hold: a gradient beyond its bound is carried into the residual, in units of its own bound.
+    # Both must hold: the residual includes the gradient's residual, scaled by the ratio of the bounds.
     residual = np.abs(value - expected)
     residual = np.where(worst > 1, np.maximum(residual, tolerance * worst), residual)
     outcome = Outcome(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)

@@ -1,4 +1,4 @@
-"""Closed curves turn at least once round."""
+"""Fenchel's theorem: a closed curve has total curvature of at least 2π."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def fenchel(surface: Surface, groups: Groups) -> Outcome:
         boundary = boundary_loops(surface)
         turning = Turning(boundary.curves.distinct()[0])
         curves = turning.curves
-        # Of the curves of each group the one that turns least; curves that are a single point do not turn at all.
+        # The curve of each group with the least total curvature; curves of a single point are left out.
         group = groups.face[boundary.half_edge[boundary.start[:-1]] // 3]
         usable = np.flatnonzero(curves.closed & (curves.edges > 0) & (group >= 0))
         usable = usable[np.argsort(turning.total[usable], kind="stable")[::-1]]
@@ -36,7 +36,7 @@ def fenchel(surface: Surface, groups: Groups) -> Outcome:
     expected = np.full(groups.count, 2 * np.pi)
 
     def detail(g: int) -> str:
-        # The loops of a region, whose border is boundary too, are numbered nowhere.
+        # Loops of a region have no numbers in the report, since its border is boundary too.
         least_of = "told of the loop that" if groups.kind == "region" else f"loop {number[g]}"
         return f"total curvature is at least 2π; {least_of} turns least"
 

@@ -1,4 +1,4 @@
-"""Gradients of area and volume against what area and volume do when a vertex is moved."""
+"""Gradients of area and volume against central differences."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def first_variation(
         gap = difference - gradient
         row[:] = np.sqrt(dot(gap, gap)) / bound
     worst = np.full(surface.n_vertices, np.nan)
-    worst[sample] = np.fmax(*strain)  # A_vec is null where there is no orientation
+    worst[sample] = np.fmax(*strain)  # A_vec is null without an orientation
     residual, moved = groups.vertices.max(worst), groups.vertices.count_true(chosen)
     outcome = Outcome(
         residual,
@@ -56,7 +56,7 @@ def first_variation(
     return outcome
 
 
-# Powers of lower heights, in the unit of computation, would be lost to underflow: no difference can be formed there.
+# Powers of lower heights, in the unit of computation, underflow: no differences are formed there.
 _LOWEST = 2.0**-240
 
 
@@ -65,7 +65,7 @@ def _differences(
 ) -> list[tuple[VectorColumn, Floats]]:
     """Central differences of area and volume for each of `count` vertices, with bounds on their errors.
 
-    corner: the corners at these vertices; member: which vertex each belongs to.
+    corner: the corners at these vertices. member: the vertex of each corner.
     """
     face, k = corner // 3, corner % 3
     p, q, r = (surface.xyz[:, surface.faces[face, (k + turn) % 3]] for turn in range(3))
@@ -93,7 +93,7 @@ def _differences(
             swept = np.array(cross(q - moved, r - moved))
             change = way / (2 * step)
             area[axis] += np.bincount(member, np.sqrt(dot(swept, swept)) / 2, minlength=count) * change
-            # The volume changes by that of the tetrahedron with corners p, p + moved, q and r.
+            # The change of volume is that of the tetrahedron p, p + moved, q, r.
             volume[axis] += np.bincount(member, sign * dot(moved, swept) / 6, minlength=count) * change
     faces = np.bincount(member, minlength=count)
     square = np.where(height > 0, height * height, np.nan)

@@ -1,4 +1,4 @@
-"""Total Gauss curvature is topological."""
+"""Gauss–Bonnet: total Gauss curvature is 2πχ."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parallel transport round a vertex turns a vector by its curvature."""
+"""Holonomy: parallel transport round a vertex rotates a vector by the curvature K."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..support.blocks import for_each, slices
 from ..support.words import counted
 from .base import Outcome, check
 
-# Stars of more faces are left out: the walk takes one step per face.
+# Stars with more faces are left out: the walk takes one step per face.
 LARGEST_STAR = 256
 
 
@@ -35,7 +35,7 @@ def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorCol
     angle = _transport(surface, walked, unit_normal)
     gap = np.full(surface.n_vertices, np.nan)
     gap[walked] = np.abs(np.remainder(angle - K[walked] + np.pi, 2 * np.pi) - np.pi)
-    # Each step rotates by a few ε, and K itself is a sum of as many angles of up to π.
+    # Each step has an error of a few ε, and K is a sum of as many angles of up to π.
     faces = np.where(inside, count, 0).astype(np.float64)
     most = groups.vertices.max(faces)
     tolerance = (16 + np.log2(np.maximum(most, 2.0))) * EPSILON
@@ -53,7 +53,7 @@ def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorCol
 
 
 def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: VectorColumn) -> Column:
-    """The angle by which transport round each vertex turns, in space: v keeps its parts along and across each edge.
+    """The rotation angle of parallel transport round each vertex; v keeps its components along and across each edge.
 
     The walk goes counterclockwise as the first face is wound; where a neighbour is wound the other way its normal is
     reversed, so that no orientation of the surface is needed.
@@ -74,8 +74,8 @@ def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: Vector
         for step in range(int(steps.max(initial=0))):
             active = active[steps[active] > step]
             here, up = corner[active], upright[active]
-            # Counterclockwise is across the edge that enters the corner, or that leaves it where the face is upside
-            # down.
+            # The counterclockwise neighbour lies across the edge that enters the corner, or, for a reversed face,
+            # across the edge that leaves it.
             edge = np.where(up > 0, previous_corner(here), here)
             across = twin[edge]
             same_way = tail[across] == tail[edge]

@@ -1,4 +1,4 @@
-"""Which checks are meant by their names, and how those of very many groups are told."""
+"""Names of checks, and a summary of the checks of very many groups."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .base import Check, rules
 
 
 def summarise_checks(checks: list[Check], scope: str) -> list[Check]:
-    """The checks of very many groups: those that fail, and one line for the rest."""
+    """Keep the failed checks of very many groups, and summarise the rest in one line."""
     failed = [check for check in checks if check.status == "fail"]
     if failed or not checks:
         return failed
@@ -28,9 +28,9 @@ def _strain(check: Check) -> float:
 
 
 def known_checks(names: str | Iterable[str]) -> list[str]:
-    """The names of identities, also in comma lists, in the order of the report.
+    """Parse names of identities, also in comma lists, into the order of the report.
 
-    Errors: UsageError for one that is not known, with the nearest.
+    Errors: UsageError for an unknown name, with similar ones.
     """
     entries = [names] if isinstance(names, str) else names
     wanted = {name.strip() for entry in entries for name in entry.split(",")}

@@ -19,15 +19,15 @@ Floats = NDArray[np.float64]
 
 
 def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
-    """How close to constant mean curvature and to a minimal surface.
+    """Distance from constant mean curvature and from a minimal surface.
 
     `H` = −Σ **H**·**A**/A_p ÷ Σ|**A**|²/A_p, the projection in the area measure, positive on convex bodies.
     Over interior vertices: `residual_max`, the largest |**H**_p + H **A**_p|, and `residual_density_max`, the largest
     of it per A_p. Over all that are not on the boundary, other stars than fans included: `H_vec_max`, the largest
     |**H**_p|, and `H_vec_density_max`, the largest |**H**_p|/A_p.
 
-    Vertices where **H** is null are left out. H and its residuals are NaN on groups without an orientation, where no
-    vertex is inside, and where all that is left of **A** is rounding: Σ|**A**|²/A ≤ 1e-24 ΣA.
+    Vertices with null **H** are left out. H and its residuals are NaN on groups without an orientation, without an
+    interior vertex, and where **A** is rounding only: Σ|**A**|²/A ≤ 1e-24 ΣA.
     """
     vertices, inside, rim = groups.vertices, surface.interior, surface.boundary
     products, squares, areas, sizes, densities = np.full((5, surface.n_vertices), np.nan)
@@ -62,9 +62,10 @@ def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[s
 
 
 def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
-    """Steiner's polynomial Vol + t·Area + t²/2·ΣH_theta + t³/3·ΣK, (G, 4), and whether each body is convex.
+    """Steiner's polynomial Vol + t·Area + t²/2·ΣH_theta + t³/3·ΣK, (G, 4), and flags (G,) of convex bodies.
 
-    For a convex body it is the volume at distance t, also where the body is wound inside out. NaN where the volume is.
+    For a convex body it is the volume of the parallel body at distance t, also with inside-out winding. NaN where the
+    volume is NaN.
     Convex: closed, connected, χ = 2 and ΣK⁻ ≤ 16 ε (F + V).
     """
     counts = count_groups(surface, groups)
@@ -88,7 +89,7 @@ def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dic
 def competing_normals(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
     """The angle between the lines of **H**_p and **A**_p over interior vertices: its largest and its mean value.
 
-    Both are normals of the surface at p: the one decreases its area fastest, the other increases its volume fastest.
+    Both are normals at p: moving p along **H**_p decreases area fastest, along **A**_p increases volume fastest.
     """
     angle = np.full(surface.n_vertices, np.nan)
     for block in slices(surface.n_vertices):

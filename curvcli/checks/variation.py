@@ -37,7 +37,7 @@ def area_gradient(
         drift, allowed = (f"{side[g]:.3g}" if np.isfinite(side[g]) else "undefined" for side in shown)
         return f"Σ p·∇_p area against 2 area; |Σ ∇_p area| = {drift} (allowed {allowed})"
 
-    # Both must hold: a drift beyond its bound is carried into the residual, in units of its own bound.
+    # Both must hold: the residual includes the drift, scaled by the ratio of the bounds.
     residual = np.abs(value - expected)
     over = drift > drift_tolerance
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -58,7 +58,7 @@ def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Col
     counts = count_groups(surface, groups)
     value = groups.vertices.sum(dot_offset(surface, A_vec))
     expected = 3 * volumes(surface, groups)
-    # A needle's area vector, computed to twice the digits, still has an error of ε² times a product of its edges.
+    # The area vector of a needle, in compensated arithmetic, has an error of ε² times a product of its edges.
     sizes = 3 * star_area + EPSILON * star_extent**2
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, sizes)))
     outcome = Outcome(value, expected, tolerance, length_exponent=3, detail="Σ p·A_p against three times the volume")

@@ -1,4 +1,4 @@
-"""Test surfaces made by formulas, each with what is exactly known about it; importing this package imports no numpy."""
+"""Test surfaces from formulas, with their exact values; importing this package imports no numpy."""
 
 from .catalogue import get, names, specs
 

@@ -1,4 +1,4 @@
-"""Surfaces put together from parts: a block with two holes, and two surfaces in one file."""
+"""Assembled surfaces: a block with two holes, and two surfaces in one file."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ _registry: dict[str, SampleSpec] = {}
 def sample(*, summary: str, exact: str) -> Callable[[Callable[..., Sample]], SampleSpec]:
     """Enter a surface under the name of its function.
 
-    summary: what the surface is, for lists. exact: one sentence saying what is exactly known about it.
+    summary: a noun phrase for lists. exact: one sentence on its exact values.
     """
 
     def enter(function: Callable[..., Sample]) -> SampleSpec:
@@ -60,7 +60,7 @@ def names() -> tuple[str, ...]:
 
 
 def get(name: str) -> SampleSpec:
-    """The sample of that name; UsageError with the nearest names for one that is not known."""
+    """The sample of that name. Errors: UsageError for an unknown name, with similar ones."""
     known = {spec.name: spec for spec in specs()}
     spec = known.get(name.strip().lower().replace("-", "_"))
     if spec is None:

@@ -15,7 +15,7 @@ from .model import Columns, FloatArray
 def principal(first: ArrayLike, second: ArrayLike) -> Columns:
     """Columns from the two principal curvatures, each (V,), in any order."""
     a, b = np.broadcast_arrays(np.asarray(first, np.float64), np.asarray(second, np.float64))
-    # Adding 0.0 turns a negative zero into zero.
+    # Adding 0.0 replaces -0.0 by 0.0.
     a, b = a + 0.0, b + 0.0
     h_signed = a + b
     return {
@@ -49,7 +49,7 @@ def constant(count: int, first: float, second: float) -> Columns:
 
 
 def one_sided(columns: Columns) -> Columns:
-    """What is left of the columns where no side is the outer one: all that is even in the normal."""
+    """Keep the columns that are even in the normal, for surfaces without an outer side."""
     return {name: columns[name] for name in ("h", "K_density")}
 
 

@@ -1,4 +1,4 @@
-"""Topology of a sample, said in the words of the report."""
+"""Topology of a sample, under the keys of the report."""
 
 from __future__ import annotations
 

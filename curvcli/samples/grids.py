@@ -93,7 +93,7 @@ def disk(rings: int) -> tuple[FloatArray, FloatArray, IntArray]:
 
 
 def _ring_start(ring: Integers) -> Integers:
-    """The number of the first vertex of ring k of a disk."""
+    """Index of the first vertex of ring k of a disk."""
     return np.asarray(np.where(ring > 0, 1 + 3 * ring * (ring - 1), 0))
 
 

@@ -1,4 +1,4 @@
-"""What a sample is: a mesh, what is exactly true of it, and the smooth surface it approximates."""
+"""Sample: a mesh, its exact values, and those of the smooth surface that it approximates."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ class Sample:
     points: (V, 3) float64. faces: (F, 3) int32, counterclockwise seen from outside (graphs: from above).
     exact: (V,) columns with the names and signs of the vertex table, NaN where the surface has none. Curvatures
     are those of the smooth surface through the points; `K`, where present, is the angle defect of the mesh itself.
-    facts: what holds for this very mesh: topology under the names of the report, and totals.
+    facts: exact values of this mesh: topology under the keys of the report, and totals.
     limit: totals of the smooth surface, to which those of ever finer meshes tend (a Schwarz lantern's do not).
-    name, description: what was asked for, and what is exactly known, in one sentence.
+    name, description: the requested sample, and its exact values in one sentence.
     """
 
     points: FloatArray
@@ -56,7 +56,7 @@ class Sample:
     description: str = ""
 
     def scaled(self, factor: float) -> Sample:
-        """The same surface, `factor` times as large, with everything known about it."""
+        """The sample scaled by `factor`, exact values included."""
         demand(math.isfinite(factor) and factor > 0, f"the scale must be a positive number, not {factor!r}")
 
         def grown(name: str, value: Any) -> Any:
@@ -92,12 +92,12 @@ class SampleSpec:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """The keywords it takes, in the order of its definition."""
+        """Its parameters, in the order of its definition."""
         signature = inspect.signature(self.function, eval_str=True)
         return tuple(Parameter(p.name, p.annotation, p.default) for p in signature.parameters.values())
 
     def parse(self, settings: Mapping[str, str]) -> dict[str, int | float | bool]:
-        """Keywords from text such as {"size": "2000"}; UsageError for an unknown name or a value of the wrong kind."""
+        """Parse keywords from text such as {"size": "2000"}. Errors: UsageError for an unknown name or a wrong type."""
         kinds = {parameter.name: parameter.kind for parameter in self.parameters}
         values: dict[str, int | float | bool] = {}
         for name, text in settings.items():
@@ -112,18 +112,18 @@ class SampleSpec:
         demand(key in known, f"sample {self.name} has no parameter {typed!r}{way_out}")
 
     def __call__(self, **values: int | float | bool) -> Sample:
-        """Make the surface; UsageError for a parameter it does not have or a value it cannot be made with."""
+        """Make the surface. Errors: UsageError for an unknown parameter or an impossible value."""
         for name, value in values.items():
             self._demand_known(name, name)
             demand(math.isfinite(value), f"{name} must be finite, not {value!r}")
         made = self.function(**values)
-        # Writers and the readers of raw memory want rows one after the other, however the formulas stacked them.
+        # Writers and readers of raw memory need contiguous rows.
         points, faces = np.ascontiguousarray(made.points), np.ascontiguousarray(made.faces)
         return dataclasses.replace(made, points=points, faces=faces, name=self.name, description=self.exact)
 
 
 def demand(condition: bool, otherwise: str) -> None:
-    """Raise UsageError with that message unless the condition holds."""
+    """Raise UsageError with the message `otherwise` unless the condition holds."""
     if not condition:
         raise UsageError(otherwise)
 

@@ -1,4 +1,4 @@
-"""One-sided surfaces; what is odd in the normal has no value on them."""
+"""One-sided surfaces; quantities that are odd in the normal are undefined on them."""
 
 from __future__ import annotations
 

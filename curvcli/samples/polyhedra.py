@@ -1,4 +1,4 @@
-"""The Platonic solids: small meshes whose discrete curvatures are known in closed form."""
+"""Platonic solids: small meshes with discrete curvatures in closed form."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Surfaces of revolution about the z axis, and the lantern that looks like one."""
+"""Surfaces of revolution about the z axis, and the Schwarz lantern."""
 
 from __future__ import annotations
 

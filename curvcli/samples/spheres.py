@@ -1,4 +1,4 @@
-"""Closed surfaces of the sphere's kind."""
+"""Spheres and ellipsoids."""
 
 from __future__ import annotations
 

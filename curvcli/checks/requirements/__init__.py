@@ -1,4 +1,4 @@
-"""What a mesh can be required to be: properties that identities do not prove, one function each."""
+"""Requirements of `--require`: properties that identities do not prove, one function each."""
 
 from . import shape, soundness, topology  # noqa: F401  (importing registers)
 from .base import DEFAULT, Kind, Requirement, kinds, parse

@@ -1,4 +1,4 @@
-"""What a requirement is: a named test that returns what is wrong, and how --require spells it."""
+"""Requirement: a named test that returns a fault, and its spelling for --require."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from ...support.words import format_number, suggestion
 Test = Callable[..., str]
 Number = Literal["", "N", "TOL"]
 
-# Required of every mesh unless allowed to be missing.
+# Required of every mesh unless explicitly allowed.
 DEFAULT = ("manifold", "consistent-winding", "no-degenerate", "no-duplicate-faces")
 
 
 @dataclass(frozen=True)
 class Kind:
-    """One name of --require: its test returns what is wrong, or nothing.
+    """One name of --require with its test, which returns the fault or an empty text.
 
-    number: what stands behind the equals sign, `N` (a whole number), `TOL` (not negative) or nothing at all.
-    remedy: what to do about a mesh that fails. needs: the quantities that the test takes by the names of its
-    parameters, and `mean`, the convention for H.
+    number: the value behind the equals sign: `N` (a whole number), `TOL` (not negative) or empty.
+    remedy: the advice for a mesh that fails. needs: names of the test's parameters, quantities and `mean`, the
+    convention for H.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Kind:
 
     @property
     def usage(self) -> str:
-        """As it is written after --require."""
+        """The spelling in help, such as `genus=N`."""
         return f"{self.name}={self.number}" if self.number else self.name
 
 
@@ -50,7 +50,7 @@ class Requirement:
 
     @property
     def name(self) -> str:
-        """As it is written after --require, such as `genus=1`."""
+        """The spelling after --require, such as `genus=1`."""
         return self.kind.name if self.value is None else f"{self.kind.name}={format_number(self.value)}"
 
     def problem(self, surface: Surface, given: Mapping[str, Any]) -> str:
@@ -80,9 +80,9 @@ def requirement(name: str, number: Number = "", *, remedy: str) -> Callable[[Tes
 
 
 def parse(texts: Iterable[str]) -> list[Requirement]:
-    """Requirements from comma lists such as `closed,genus=1`, each once, in the order given.
+    """Parse comma lists such as `closed,genus=1`; each requirement once, in the order given.
 
-    Errors: UsageError for an unknown name (with the nearest), a missing, superfluous or impossible number.
+    Errors: UsageError for an unknown name (with similar ones), a missing, superfluous or impossible number.
     """
     found: dict[Requirement, None] = {}
     for text in texts:

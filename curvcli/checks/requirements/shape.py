@@ -1,4 +1,4 @@
-"""What the surface bounds or minimises."""
+"""Requirements of shape: convex, minimal, constant mean curvature."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ _NOT_A_FAN, _NOT_FANS = "whose star is not one fan", "whose stars are not one fa
 
 
 def _largest_density(vectors: VectorColumn, area: Column, extent: Column, where: Flags) -> tuple[float, int]:
-    """The largest |v|/A_p and its vertex, a v that rounding explains taken as 0; NaN where there is none."""
+    """The largest |v|/A_p and its vertex, with v within rounding taken as 0; NaN without a vertex."""
     size = np.sqrt(dot(vectors, vectors))
     size[size <= 16 * EPSILON * extent] = 0.0
     density = np.divide(size, area, out=np.full_like(size, np.nan), where=where & (area > 0))

@@ -1,4 +1,4 @@
-"""What a file should be free of."""
+"""Requirements of soundness: no degenerate or duplicate faces, no unreferenced or duplicate vertices."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ...support.words import counted
 from .base import requirement
 from .wording import faces, join_problems, located, vertices, with_explanation
 
-# Faces that the reader or the surface dropped, which no later count sees.
+# Notices of faces that the reader or the surface dropped; later counts do not include them.
 _DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
 
 

@@ -1,4 +1,4 @@
-"""What hangs together how: boundary, manifoldness, orientation, pieces and handles."""
+"""Requirements of topology: boundary, manifoldness, orientation, components and genus."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def outward(surface: Surface) -> str:
 
 
 def _inside_out(surface: Surface, apart: Surface) -> str:
-    """Bodies and cavities of the wrong sign. apart: the surface with each body on its own vertices."""
+    """The fault of bodies and cavities of the wrong sign. apart: the surface with each body on its own vertices."""
     solids = apart.solids
     turned = np.flatnonzero(solids.inside_out)
     if not len(turned):
@@ -89,7 +89,7 @@ def _inside_out(surface: Surface, apart: Surface) -> str:
 
 
 def _crossing(surface: Surface, apart: Surface) -> str:
-    """Bodies that cross."""
+    """The fault of bodies that cross. apart: the surface with each body on its own vertices."""
     solids = apart.solids
     if not len(solids.crossing):
         return ""

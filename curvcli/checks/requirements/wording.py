@@ -1,4 +1,4 @@
-"""How defects are told: how many, and where the first is."""
+"""Texts of faults: count and first place."""
 
 from __future__ import annotations
 
@@ -12,41 +12,41 @@ from ...support.words import counted
 
 
 def located(count: int, one: str, many: str, first: str) -> str:
-    """`1 edge … (edge 2-7)` or `3 edges … (first: edge 2-7)`."""
+    """A fault with count and first place: `1 edge … (edge 2-7)` or `3 edges … (first: edge 2-7)`."""
     return f"{counted(count, one, many)} ({first if count == 1 else f'first: {first}'})"
 
 
 def edge_name(surface: Surface, edge: Any) -> str:
-    """An edge by its two vertices."""
+    """Name of an edge by its two vertices."""
     return f"edge {surface.edges.a[edge]}-{surface.edges.b[edge]}"
 
 
 def face_name(surface: Surface, face: Any) -> str:
-    """A face by its number in the file, which counts polygons."""
+    """Name of a face by its polygon in the file."""
     return f"face {face}" if surface.polygon is None else f"polygon {surface.polygon[face]}"
 
 
 def edges(surface: Surface, mask: NDArray[np.bool_], what: str) -> str:
-    """Edges where the mask holds, or nothing."""
+    """The fault of the edges of a mask; empty for none."""
     where = np.flatnonzero(mask)
     return located(len(where), f"edge {what}", f"edges {what}", edge_name(surface, where[0])) if len(where) else ""
 
 
 def faces(surface: Surface, where: NDArray[np.integer[Any]], what: str) -> str:
-    """The faces given, or nothing."""
+    """The fault of the given faces; empty for none."""
     return located(len(where), f"face {what}", f"faces {what}", face_name(surface, where[0])) if len(where) else ""
 
 
 def vertices(where: NDArray[np.integer[Any]], one: str, many: str) -> str:
-    """The vertices given, or nothing."""
+    """The fault of the given vertices; empty for none."""
     return located(len(where), f"vertex {one}", f"vertices {many}", f"vertex {where[0]}") if len(where) else ""
 
 
 def with_explanation(problem: str, explanation: str) -> str:
-    """A problem with its explanation or its way out, or nothing without a problem."""
+    """A fault with its explanation or remedy; empty without a fault."""
     return f"{problem}; {explanation}" if problem and explanation else problem
 
 
 def join_problems(*problems: str) -> str:
-    """Several problems in one line, or nothing."""
+    """Join several faults in one line; empty without any."""
     return ", ".join(problem for problem in problems if problem)
