@@ -1,4 +1,4 @@
-"""Space curves: turning, frames, writhe and holonomy of polygons, and the boundary curves of surfaces."""
+"""Space curves: turning, frames, writhe, holonomy and linking of polygons, and the boundary curves of surfaces."""
 
 from .boundary import Boundary, boundary_loops
 from .curve import Curve

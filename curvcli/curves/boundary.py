@@ -1,4 +1,4 @@
-"""Boundary curves of a surface, each in order along it, for any number of loops."""
+"""Boundary curves of a surface, as ordered vertices and half-edges."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .polygon import Curves, Mask, Rows
 
 @dataclass(frozen=True)
 class Walk:
-    """The way along the boundary of a surface, which it does not refer to.
+    """The order of the boundary of a surface, without a reference to the surface.
 
     half_edge: (n,) the boundary half-edge that leaves each vertex of a curve, -1 at the end of an open
     one. forward: (n,) whether the curve runs along it as the file winds its face. vertex: (n,) vertex of the surface.
@@ -33,7 +33,7 @@ class Walk:
 
 
 class Boundary:
-    """The boundary of a surface as curves: `surface`, and what `Walk` says."""
+    """The boundary of a surface as curves: `surface` and the arrays of `Walk`."""
 
     def __init__(self, surface: Surface, walk: Walk) -> None:
         self.surface, self.fans = surface, walk.fans
@@ -47,17 +47,17 @@ class Boundary:
 
     @cached_property
     def component(self) -> Rows:
-        """(m,) component of the surface that each curve bounds."""
+        """(m,) component of the surface at each curve."""
         return self.surface.components.face[self.half_edge[self.start[:-1]] // 3].astype(np.int64)
 
     @cached_property
     def fan(self) -> Rows:
-        """(n,) fan of faces at each vertex of a curve; at an open end, that of the one edge there."""
+        """(n,) fan of faces at each vertex of a curve; at an open end, the fan of its only edge."""
         return self.fans.of_corners(self.corner)
 
     @cached_property
     def corner(self) -> Rows:
-        """(n,) a corner at the vertex, of the face beside the edge that leaves it (at an open end, arrives)."""
+        """(n,) a corner at the vertex, in the face at the edge that leaves it (at an open end, arrives)."""
         there = np.where(self.half_edge < 0, np.roll(self.half_edge, 1), self.half_edge)
         at_tail = self.forward == (self.half_edge >= 0)
         return np.where(at_tail, there, next_corner(there))
@@ -66,8 +66,7 @@ class Boundary:
 class Fans:
     """Fans of faces at boundary vertices: runs of faces joined through edges with n_e = 2.
 
-    A vertex whose star is one fan is that fan, numbered as the vertex; at other vertices the fans are told apart and
-    numbered from V on.
+    A fan that is a whole star has the number of its vertex; the fans of other vertices are numbered from V on.
     """
 
     def __init__(self, surface: Surface) -> None:
@@ -87,7 +86,7 @@ class Fans:
         self.count += found
 
     def of_corners(self, corner: Rows) -> Rows:
-        """The fan that each corner (3 f + k) belongs to."""
+        """The fan of each corner (3 f + k)."""
         vertex = self.faces.ravel()[corner].astype(np.int64)
         split = self.irregular[vertex]
         if split.any():
@@ -96,7 +95,7 @@ class Fans:
 
 
 def boundary_loops(surface: Surface) -> Boundary:
-    """The boundary of a surface as ordered curves, by their lowest vertex, which each closed one starts with.
+    """Order the boundary of a surface into curves, sorted by their lowest vertex; a closed curve starts at it.
 
     They run with the surface on their left, seen from the tip of ν; on a patch without an orientation as the file winds
     the face at the curve's first edge (a, b), the lowest. Where fans of faces touch in a vertex each keeps its own
@@ -108,7 +107,7 @@ def boundary_loops(surface: Surface) -> Boundary:
 
 @cached
 def walk_boundary(surface: Surface) -> Walk:
-    """The order of the half-edges along the boundary curves, as `boundary_loops` says."""
+    """Order the half-edges along the boundary curves, see `boundary_loops`."""
     half_edge = surface.boundary_half_edges.astype(np.int64)
     fans = Fans(surface)
     mate, forward = _mates(surface, fans, half_edge)
@@ -128,13 +127,13 @@ def walk_boundary(surface: Surface) -> Walk:
 
 
 def _ends(surface: Surface, half_edge: Rows, forward: Mask) -> tuple[Rows, Rows]:
-    """First and second end of each half-edge in the direction it is run along."""
+    """First and second end of each half-edge in the direction of its curve."""
     tail, head = (end.astype(np.int64) for end in ends_of(surface.faces, half_edge))
     return np.where(forward, tail, head), np.where(forward, head, tail)
 
 
 def _mates(surface: Surface, fans: Fans, half_edge: Rows) -> tuple[Rows, Mask]:
-    """What follows each directed boundary edge, and whether edges run as the file winds them.
+    """The successor of each directed boundary edge, and flags of edges directed as the file winds them.
 
     Directed edge e < B runs with the orientation, B + e against it; -1 where a curve ends.
     """
@@ -156,24 +155,24 @@ def _mates(surface: Surface, fans: Fans, half_edge: Rows) -> tuple[Rows, Mask]:
 
 
 def walk_directed(mate: Rows, descending: Mask) -> tuple[Rows, Rows, Mask]:
-    """Directed edges in order along each curve, where curves begin, and which are closed.
+    """Order directed edges along each curve: the edges, the start of each curve, and flags of closed curves.
 
-    descending: (B,) edges that run from the higher to the lower vertex, after which a closed curve has its beginning.
-    All curves are threaded on one path, the end of each tied to the beginning of the next, so that a single search
-    finds the order of all.
+    descending: (B,) edges from the higher to the lower vertex; a closed curve begins behind one.
+    All curves are concatenated to one path, the end of each linked to the start of the next, so that one graph search
+    orders all of them.
     """
     count = len(descending)
     if not count:
         return np.empty(0, np.int64), np.zeros(1, np.int64), np.empty(0, bool)
     if (mate[:count] < count).all() and not ((mate[count:] >= 0) & (mate[count:] < count)).any():
-        mate = mate[:count]  # one orientation throughout: nothing runs against it
+        mate = mate[:count]  # one orientation: no edge runs against it
     states = len(mate)
     tied = np.flatnonzero(mate >= 0)
     curves, label = label_graph(states, tied, mate[tied])
     lowest = np.full(curves, 2 * states)
     rank = 2 * (np.arange(states) % count) + (np.arange(states) >= count)
     np.minimum.at(lowest, label, rank)
-    # Of the two directions of a curve the one that has its lowest edge with the orientation.
+    # Of the two directions of a curve, the one whose lowest edge follows the orientation.
     kept = np.flatnonzero(lowest % 2 == 0)
     kept = kept[np.argsort(lowest[kept])]
     lowest = lowest[kept] // 2
@@ -191,7 +190,7 @@ def walk_directed(mate: Rows, descending: Mask) -> tuple[Rows, Rows, Mask]:
 
 
 def _thread(mate: Rows, back: Rows, curve: Rows, first: Rows, closed: Mask) -> tuple[Rows, Rows, Mask]:
-    """The same, given what precedes each directed edge, its curve (-1: left out), and the first edge of each curve."""
+    """Order edges from successors, predecessors, curves (-1: left out), and the first edge of each curve."""
     used = curve >= 0
     onward = np.where(used, mate, -1)
     last = np.empty(len(first), np.int64)

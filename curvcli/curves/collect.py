@@ -1,4 +1,4 @@
-"""All curves of a mesh file: the boundary of its surface and its polylines."""
+"""Curves of a mesh file: the boundary of its surface and its polylines."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from .polygon import Curves, Rows
 
 @dataclass(frozen=True)
 class CurveSet:
-    """Curves with the vertices they run through.
+    """Curves with the vertex rows of their points.
 
     curves: all, first the boundary curves, then the polylines. vertex: (n,) row of the file of each of their vertices.
-    boundary: the boundary curves; None where there is no surface.
+    boundary: the boundary curves; None without a surface.
     """
 
     curves: Curves
@@ -42,7 +42,7 @@ def curves_of_file(file: MeshFile) -> CurveSet:
     """The boundary curves of the file's surface and its `l` polylines.
 
     Records that share ends are joined (see `join`); a polyline whose last index is its first is closed.
-    Errors: InputError for a file without any curve, or coordinates of one that are not finite.
+    Errors: InputError for a file without curves, or for coordinates of curves that are not finite.
     """
     notices = list(file.notices)
     boundary = None
@@ -87,7 +87,7 @@ def _check_finite(file: MeshFile, vertex: Rows) -> None:
 
 
 def _of_ends(file: MeshFile, joined: Joined) -> Iterator[Notice]:
-    """Where polylines branch, and which ends of theirs lie at the place of another end."""
+    """Notices of vertices at which polylines branch, and of ends at the position of another end."""
     yield Notice.at(
         "branching_vertices",
         joined.branching,
@@ -107,7 +107,7 @@ def _of_ends(file: MeshFile, joined: Joined) -> Iterator[Notice]:
 
 
 def curve_notices(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None) -> list[Notice]:
-    """What should be said of the curves: repeated: vertices equal to the next; reversed_: where a curve turns back."""
+    """Notices of curves. repeated: vertices equal to the next. reversed_: vertices at which a curve turns back."""
     return [notice for notice in _all(found, repeated, reversed_, refused, limit) if notice.count]
 
 

@@ -1,4 +1,4 @@
-"""One curve from its points: what the sweeps over many curves give, row by row and as plain numbers."""
+"""One curve from its points: results of the vectorised functions as rows and plain numbers."""
 
 from __future__ import annotations
 
@@ -20,11 +20,10 @@ from .writhe import MAX_EDGES, writhe
 class Curve:
     """A polygonal curve in E^d.
 
-    points: (n, d) in order, d ≥ 2. closed: whether an edge leads from the last point back to the first, which is not
-    repeated.
-    Columns have one row per point. What belongs to an edge stands in the row of the point it leaves. Null (NaN) where
-    undefined: at the ends of open curves, and at points that repeat the next one (`repeated_points` counts them), where
-    the last of equal points has the values. Frames, torsion, writhe and the plane need d = 3; UsageError otherwise.
+    points: (n, d) in order, d ≥ 2. closed: an edge joins the last point to the first, which is not repeated.
+    Columns have one row per point. Values of an edge are in the row of its first point. Null (NaN) is undefined: the
+    ends of open curves, and points equal to the next one (counted by `repeated_points`); the last of equal points has
+    the values. Frames, torsion, writhe and the plane need d = 3; UsageError otherwise.
     Errors: InputError for points that are not finite numbers of that shape.
     """
 
@@ -108,7 +107,7 @@ class Curve:
 
     @property
     def unknotted(self) -> bool | None:
-        """True where Σψ ≤ 4π proves that a closed curve which does not cross itself is no knot; None: not proved."""
+        """True if Σψ ≤ 4π, which proves a curve without self-crossings unknotted (Fáry–Milnor); None: undecided."""
         return True if self._turning.unknotted[0] else None
 
     @cached_property
@@ -117,7 +116,7 @@ class Curve:
 
     @property
     def plane(self) -> bool:
-        """Whether the points lie in a plane, to the rounding of their coordinates."""
+        """True if the points lie in a plane, to the rounding of their coordinates."""
         return bool(self._plane.plane[0])
 
     @property
@@ -127,7 +126,7 @@ class Curve:
 
     @property
     def turning_number(self) -> int | None:
-        """How often a plane closed curve turns round; None for others."""
+        """Turning number of a plane closed curve, signed_total / 2π; None for others."""
         found = or_none(float(self._plane.turning_number[0]))
         return None if found is None else int(found)
 
@@ -137,7 +136,7 @@ class Curve:
 
     @property
     def frenet(self) -> tuple[Floats, Floats, Floats]:
-        """(T, N, B) at every point, (n, 3) each; null where the curve is straight."""
+        """(T, N, B) at every point, (n, 3) each; null on straight parts."""
         frame = self._frenet
         return self._rows(frame.tangent), self._rows(frame.normal), self._rows(frame.binormal)
 
@@ -152,7 +151,7 @@ class Curve:
 
     @property
     def bishop(self) -> tuple[Floats, Floats, Floats]:
-        """(T, U, V) on every edge, (n, 3) each: U and V carried along without twist."""
+        """(T, U, V) on every edge, (n, 3) each: U and V by parallel transport."""
         return self.tangents, self._rows(self._bishop.u), self._rows(self._bishop.v)
 
     @property

@@ -1,4 +1,4 @@
-"""Curves on surfaces: the Darboux frame along a boundary, its geodesic and its normal curvature."""
+"""Darboux frames along boundary curves, with geodesic and normal curvature."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class Darboux:
                 here = at >= 0
                 at = at[here]
                 theta = t.angle(k)
-                # A corner on top of another one of its face has no angle.
+                # A corner that coincides with another one of its face has no angle.
                 theta[t.no_angle(k)] = np.nan
                 np.add.at(angle, at, theta[here])
                 np.add.at(area, at, t.twice_area[here])

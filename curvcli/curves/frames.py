@@ -1,4 +1,4 @@
-"""Frames along curves in space: Frenet's from the curve itself, Bishop's by parallel transport, any other's twist."""
+"""Frames along curves in space: Frenet's, Bishop's by parallel transport, and the twist of any normal field."""
 
 from __future__ import annotations
 
@@ -56,18 +56,18 @@ class Frenet:
 
 
 def transport_angle(turning: Turning, field: Floats) -> Floats:
-    """(n,) at each vertex the angle in (−π, π] by which a field of unit normals turns against parallel transport.
+    """(n,) at each vertex the angle in (−π, π] from parallel transport to a field of unit normals.
 
     field: (3, n) one unit vector per edge, perpendicular to it. Parallel transport across a vertex is the rotation that
     takes T to T′ about their common normal; the angle goes from the transported vector of the edge that arrives to that
-    of the edge that leaves, right-handed about T′. NaN where the curve turns back on itself: no rotation is the least.
+    of the edge that leaves, right-handed about T′. NaN where the curve turns back: the least rotation is not unique.
     """
     curves = turning.curves
     tangent, before = curves.tangent, curves.tangent[:, curves.preceding]
     mirror = tangent + before
     carried = field[:, curves.preceding]
     with np.errstate(divide="ignore", invalid="ignore"):
-        # Of a vector normal to T the rotation is the reflection in the plane normal to T + T′.
+        # On vectors normal to T the rotation equals the reflection in the plane normal to T + T′.
         square = np.where(turning.reversed, np.nan, dot(mirror, mirror))
         carried = carried - mirror * (2 * dot(mirror, carried) / square)
     angle = np.arctan2(dot(tangent, cross(carried, field)), dot(carried, field))
@@ -109,7 +109,7 @@ class Bishop:
 
     @cached_property
     def holonomy(self) -> Floats:
-        """(m,) the angle in (−π, π] by which transport once round turns the normals, right-handed about T; closed only.
+        """(m,) the angle in (−π, π] of parallel transport once round, right-handed about T; closed curves only.
 
         ≡ 2π · writhe (mod 2π). NaN on open curves and where a curve turns back on itself.
         """
@@ -118,13 +118,13 @@ class Bishop:
 
 
 def defined_round(turning: Turning) -> Mask:
-    """(m,) closed curves with edges that nowhere turn back, along which transport goes all the way round."""
+    """(m,) mask of the closed curves with edges that nowhere turn back, so that transport once round is defined."""
     curves = turning.curves
     return np.asarray(curves.closed & (curves.edges > 0) & (curves.sum(turning.reversed) == 0))
 
 
 def twist(turning: Turning, field: Floats) -> Floats:
-    """(m,) total angle by which a field of unit normals (3, n) turns against parallel transport; closed curves only.
+    """(m,) total angle from parallel transport to a field of unit normals (3, n); closed curves only.
 
     twist/2π + writhe is the linking number of the curve with itself pushed along the field (Călugăreanu, White).
     """

@@ -13,10 +13,10 @@ _EDGES_PER_BLOCK = 4096
 
 
 def normal_holonomy(points: ArrayLike) -> Floats:
-    """The rotation that parallel transport once round a closed polygon gives the normals of its first edge.
+    """Compute the rotation of the normals of the first edge by parallel transport once round a closed polygon.
 
-    The product of the rotations R_i that take T_{i−1} to T_i within the plane of both and fix what is normal to it. It
-    fixes T_0; returned is its matrix on the normals of T_0, an element of SO(d − 1), defined up to conjugation by the
+    The product of the rotations R_i that take T_{i−1} to T_i within the plane of both and fix its normals. It fixes
+    T_0; the result is its matrix on the normals of T_0, an element of SO(d − 1), defined up to conjugation by the
     choice of the first edge. Basis: `normal_basis(T_0)`, with which (T_0, b_1, …, b_{d−1}) is positively oriented, so
     that in E³ the matrix is the right-handed rotation by `Bishop.holonomy`.
 

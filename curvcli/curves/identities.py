@@ -1,4 +1,4 @@
-"""What must hold along every curve, both sides of it, with the largest gap that rounding explains."""
+"""Identities of curves: both sides, residual and error bound."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from .turning import Turning
 class Identity:
     """One identity on every curve.
 
-    value, expected, residual, tolerance: (m,). excluded: reasons with the curves they exclude, the first one stands.
-    detail: what is compared.
+    value, expected, residual, tolerance: (m,). excluded: reasons with the curves they exclude; the first one stands.
+    detail: the compared quantities.
     """
 
     name: str
@@ -32,7 +32,7 @@ class Identity:
 
 
 def identities(turning: Turning, plane: PlaneCurves, bishop: Bishop, writhe: tuple[Floats, Floats]) -> list[Identity]:
-    """All identities of curves without repeated points; writhe: in turns, and the bound of its error."""
+    """Evaluate all identities of curves without repeated points. writhe: in turns, and the bound of its error."""
     return list(_identities(turning, plane, bishop, *writhe))
 
 
@@ -95,7 +95,7 @@ def _identities(
 
 
 def fenchel(turning: Turning) -> tuple[Floats, Floats]:
-    """(m,) twice: how far the total curvature of a closed curve falls short of 2π, and what rounding explains of it."""
+    """(m,) twice: the shortfall of the total curvature of a closed curve from 2π, and its rounding error bound."""
     curves = turning.curves
     return np.maximum(2 * np.pi - turning.total, 0.0), 16 * EPSILON * np.maximum(curves.sizes, 1)
 

@@ -1,4 +1,4 @@
-"""Records of polylines joined to curves where they share ends, in any order and direction."""
+"""Joining of polyline records into curves at shared ends, in any order and direction."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .polygon import Mask, Rows
 
 @dataclass(frozen=True)
 class Joined:
-    """Curves made of the records of a file.
+    """Curves joined from the records of a file.
 
-    vertex: (n,) of the curves one after the other, the repeated end of closed ones left out. start: (m + 1,).
-    closed: (m,). branching: vertices where more than two edges meet, at which curves end.
+    vertex: (n,) of all curves, concatenated, without the repeated end of closed ones. start: (m + 1,).
+    closed: (m,). branching: vertices with more than two edges, at which curves end.
     """
 
     vertex: Rows
@@ -61,7 +61,7 @@ def join(polylines: Polylines) -> Joined:
 
 
 def _within(size: int, first: Rows, last: Rows) -> Mask:
-    """(n,) places of runs but their last, from which an edge leaves."""
+    """(n,) positions in runs without the last of each, those with a leaving edge."""
     step = np.zeros(size + 1, np.int64)
     step[first] += 1
     step[last] -= 1
@@ -69,20 +69,20 @@ def _within(size: int, first: Rows, last: Rows) -> Mask:
 
 
 def _degrees(vertex: Rows, first: Rows, last: Rows, count: int) -> Rows:
-    """How many edges from one vertex to another each vertex has in these records."""
+    """Number of edges between different vertices at each vertex."""
     tail = np.flatnonzero(_within(len(vertex), first, last))
     tail = tail[vertex[tail] != vertex[tail + 1]]
     return np.asarray(np.bincount(vertex[tail], minlength=count) + np.bincount(vertex[tail + 1], minlength=count))
 
 
 def _staying(vertex: Rows, first: Rows, last: Rows) -> Mask:
-    """(records,) whether one has several indices, all of one vertex."""
+    """(records,) mask of the records with several indices, all equal."""
     moved = np.concatenate([[0], np.cumsum(vertex[1:] != vertex[:-1])])
     return np.asarray((last > first) & (moved[last] == moved[first]))
 
 
 def _cut(vertex: Rows, first: Rows, last: Rows, branching: Mask) -> _Pieces:
-    """The records, cut where they pass through a branching vertex."""
+    """Cut records at branching vertices in their interior."""
     inner = _within(len(vertex), first, last)
     inner[first] = False
     at = np.flatnonzero(inner & branching[vertex])
@@ -94,7 +94,7 @@ def _cut(vertex: Rows, first: Rows, last: Rows, branching: Mask) -> _Pieces:
 
 
 def _chained(pieces: _Pieces, joins: Mask) -> tuple[Rows, Rows, Mask]:
-    """Vertices, starts and closedness of the curves that the pieces make; joins: vertices at which two go on."""
+    """Chain pieces to curves: vertices, starts and flags of closed curves. joins: vertices that join two pieces."""
     count = len(pieces.first)
     end = pieces.vertex[np.concatenate([pieces.first, pieces.last])]
     apart = end[:count] != end[count:]
@@ -111,7 +111,7 @@ def _chained(pieces: _Pieces, joins: Mask) -> tuple[Rows, Rows, Mask]:
 
 
 def _listed(pieces: _Pieces, directed: Rows, start: Rows, closed: Mask) -> tuple[Rows, Rows, Mask]:
-    """The vertices of directed pieces one after the other, each without its last but at the end of open curves."""
+    """Concatenate the vertices of directed pieces, each without its last, which is kept at the end of open curves."""
     piece, backward = directed % len(pieces.first), directed >= len(pieces.first)
     sizes = pieces.last[piece] - pieces.first[piece]
     sizes[start[1:][~closed] - 1] += 1

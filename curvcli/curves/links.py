@@ -27,8 +27,8 @@ class Links:
     """Pairs of closed curves, in order.
 
     a, b: (k,) numbers of the curves, a < b. number: (k,) linking number in turns as summed, NaN where it was not.
-    error: (k,) bound of its rounding error. touching: (k,) pairs that have a point in common. refused: pairs whose
-    double sum is too large, or pairs of boxes too many to be compared.
+    error: (k,) bound of its rounding error. touching: (k,) pairs with a common point. refused: number of pairs with
+    too large a double sum, or of too many pairs of boxes.
     """
 
     a: Rows
@@ -40,7 +40,7 @@ class Links:
 
     @property
     def known(self) -> Mask:
-        """(k,) whether the integer is certain."""
+        """(k,) flags of certain integers."""
         near = np.abs(self.number - np.rint(self.number)) <= UNSURE
         return (self.error <= UNSURE) & near & ~self.touching
 
@@ -81,7 +81,7 @@ def links(curves: Curves, max_edges: int | None = MAX_EDGES) -> Links:
 
 
 def _candidates(curves: Curves, closed: Rows) -> tuple[Rows, Rows, Mask] | None:
-    """Pairs in order and whether their boxes meet; all of few curves, of many those that meet, None of too many."""
+    """Pairs in order, with flags of meeting boxes: all pairs of few curves, meeting pairs of many, None of too many."""
     low = np.stack([-curves.max(-x)[closed] for x in curves.xyz])
     high = np.stack([curves.max(x)[closed] for x in curves.xyz])
     if len(closed) <= LISTED:
@@ -116,13 +116,13 @@ def _meeting(low: Floats, high: Floats, order: Rows, counts: Rows, block: slice)
 
 
 def _meet(low: Floats, high: Floats, one: Rows, other: Rows) -> Mask:
-    """(k,) whether the boxes of two curves have a point in common."""
+    """(k,) flags: the boxes of two curves have a common point."""
     meet: Mask = np.logical_and.reduce((low[:, one] <= high[:, other]) & (low[:, other] <= high[:, one]))
     return meet
 
 
 def _touching(curves: Curves, a: Rows, b: Rows) -> Mask:
-    """(k,) pairs of curves with a vertex at the same place."""
+    """(k,) mask of the pairs of curves with a vertex at the same position."""
     order = np.lexsort(curves.xyz + 0.0)
     here, label = curves.xyz[:, order], curves.label[order]
     found: set[tuple[int, int]] = set()
@@ -158,7 +158,7 @@ def _sum(one: Floats, other: Floats) -> tuple[float, float]:
 
 
 def _in_common(one: Floats, other: Floats) -> tuple[Floats, Floats]:
-    """Both about one point, in units of 2 to a power, so that no square leaves the range of doubles."""
+    """Translate and scale both, by a power of 2, so that no square overflows or underflows."""
     unit = 4 if max(np.abs(one).max(), np.abs(other).max()) >= 2.0**1020 else 0
     one, other = np.ldexp(one, -unit), np.ldexp(other, -unit)
     base = one[:, :, :1]

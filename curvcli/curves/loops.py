@@ -1,4 +1,4 @@
-"""The table of boundary loops: what each one measures, and what the surface pulls with along it."""
+"""Table of boundary loops: lengths, curvatures, conormal forces and torques, writhe and linking."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ LOOP_WRITHE_EDGES = 2_000
 def loop_table(surface: Surface, *, max_writhe: int | None = LOOP_WRITHE_EDGES) -> dict[str, Any]:
     """One row per boundary curve of a surface, in the file's unit of length; NaN is undefined.
 
-    loop, component, closed, vertices: which it is. length. total_curvature: Σψ ≥ 2π (Fenchel). sum_kappa_g: Σ(π − Σθ).
-    vector_area_*: ½ Σ a × b, closed curves only. force_*: Σ η|e|, what the surface pulls with along the curve.
+    loop, component, closed, vertices: identification. length. total_curvature: Σψ ≥ 2π (Fenchel). sum_kappa_g:
+    Σ(π − Σθ). vector_area_*: ½ Σ a × b, closed curves only. force_*: Σ η|e|, the pull of the surface along the curve.
     torque_*: Σ m × η|e| about the origin. holonomy: of the parallel frame, ≡ 2π · writhe (mod 2π). writhe: in turns,
     where the double sums are within max_writhe (see `writhe`). twist: of the surface along the curve, radians.
     linking: writhe + twist / 2π, the number of times the curve links itself pushed along ν. writhe_error,
@@ -68,8 +68,8 @@ def components(name: str, vector: Floats) -> dict[str, Floats]:
 
 
 def linking(turns: Floats, turns_error: Floats, turned: Floats, turned_error: Floats) -> dict[str, Any]:
-    """(m,) `linking`, writhe + twist / 2π, the integer that it is, and `linking_error`, the bound of their errors in
-    turns; masked where one of the two is undefined and where the bound exceeds a quarter."""
+    """(m,) the integer `linking`, writhe + twist / 2π rounded, and `linking_error`, the bound of their errors in turns;
+    masked where writhe or twist is undefined or the bound exceeds a quarter."""
     number, error = turns + turned / (2 * np.pi), turns_error + turned_error / (2 * np.pi)
     unknown = np.isnan(number) | ~(error <= UNSURE)
     return {
@@ -79,7 +79,7 @@ def linking(turns: Floats, turns_error: Floats, turned: Floats, turned_error: Fl
 
 
 def complete_sum(curves: Curves, values: Floats, where: Mask | None = None) -> Floats:
-    """(m,) sums over vertices between two edges (or `where`); NaN where one of the terms is undefined."""
+    """(m,) sums over vertices between two edges (or `where`); NaN if any term is undefined."""
     missing = curves.sum(np.isnan(values) & (curves.inner if where is None else where)) > 0
     return np.where(missing, np.nan, curves.sum(values))
 
@@ -95,7 +95,7 @@ def vector_area(curves: Curves) -> Floats:
 def pull(boundary: Boundary, darboux: Darboux) -> tuple[Floats, Floats]:
     """(3, m) twice: conormal force Σ η|e| and torque Σ m × η|e| of each boundary curve, in the file's unit of length.
 
-    Taken about the first vertex of each curve, where an offset costs no digits, then moved to the origin.
+    Computed about the first vertex of each curve, so that an offset costs no digits, then moved to the origin.
     """
     surface, curves = boundary.surface, boundary.curves
     xyz = surface.xyz[:, boundary.vertex]

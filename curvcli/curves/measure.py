@@ -1,4 +1,4 @@
-"""Everything measured of a set of curves: a row per curve and a row per vertex."""
+"""Measures of a set of curves: one row per curve and one row per vertex."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class CurveMeasures:
 
     @cached_property
     def identities(self) -> list[Identity]:
-        """What must hold along every curve."""
+        """The identities of every curve."""
         return identities(self.turning, self.plane, self.bishop, self.writhe)
 
     @cached_property
@@ -67,7 +67,7 @@ class CurveMeasures:
 
     @property
     def notices(self) -> list[Notice]:
-        """What was accepted but should be said."""
+        """Notices about accepted input."""
         vertex = self.found.vertex
         repeated = np.delete(vertex, self.kept)
         back = vertex[self.kept[self.turning.reversed]]
@@ -178,7 +178,7 @@ class CurveMeasures:
         return rows
 
     def points(self) -> dict[str, Any]:
-        """One row per vertex of each curve; what belongs to an edge stands in the row of the vertex it leaves.
+        """One row per vertex of each curve; values of an edge are in the row of its first vertex.
 
         At vertices: turning ψ, sin2 = 2 sin(ψ/2), tan2 = 2 tan(ψ/2), Frenet normal and binormal; per length curvature,
         signed_curvature of plane curves and torsion_density (see `densities`); on boundary curves

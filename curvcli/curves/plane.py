@@ -1,4 +1,4 @@
-"""Plane curves: which curves lie in a plane, and how often they turn round in it."""
+"""Plane curves: detection, normal and turning number."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from .turning import Turning
 class PlaneCurves:
     """Curves of E³ that lie in planes.
 
-    plane: (m,) whether the curve does, to the rounding of its coordinates. normal: (3, m) of the plane, its largest
-    component positive, NaN where the curve is straight or not plane. signed_total: (m,) the sum of the turning angles,
-    counterclockwise ones positive seen from the tip of the normal; NaN unless plane, closed, and nowhere turning back.
+    plane: (m,) flags, to the rounding of the coordinates. normal: (3, m) of the plane, its largest component positive,
+    NaN for straight and non-planar curves. signed_total: (m,) the sum of the turning angles, counterclockwise ones
+    positive seen from the tip of the normal; NaN unless plane, closed, and nowhere turning back.
     """
 
     plane: Mask
@@ -27,7 +27,7 @@ class PlaneCurves:
 
     @property
     def turning_number(self) -> Floats:
-        """(m,) signed_total / 2π rounded to the integer that it is."""
+        """(m,) signed_total / 2π, rounded to an integer."""
         return np.rint(self.signed_total / (2 * np.pi)) + 0.0
 
 
@@ -44,11 +44,11 @@ def plane_curves(turning: Turning) -> PlaneCurves:
     far = _farthest(curves, offset, dot(offset, offset))
     moment = np.array(cross(np.repeat(far, curves.sizes, axis=1), offset))
     normal = _farthest(curves, moment, dot(moment, moment))
-    # On a thin curve the product is known to few digits; that it is perpendicular to the long way is what matters.
+    # On a thin curve the product has few digits; only its right angle to the long direction matters.
     normal, along = unit(normal), unit(far)
     normal = unit(normal - along * dot(along, normal))
     height = np.abs(dot(np.repeat(normal, curves.sizes, axis=1), offset))
-    # Where the normal is undefined all points lie on one line: plane, though in no particular plane.
+    # With an undefined normal all points lie on one line: plane, in no particular plane.
     plane = ~(curves.max(height) > 16 * EPSILON * coordinate)
     largest = np.take_along_axis(normal, np.abs(normal).argmax(axis=0)[None], axis=0)[0]
     normal = np.where(plane, normal * np.where(largest < 0, -1.0, 1.0), np.nan)
@@ -56,7 +56,7 @@ def plane_curves(turning: Turning) -> PlaneCurves:
 
 
 def _farthest(curves: Curves, vectors: Floats, square: Floats) -> Floats:
-    """(3, m) on each curve the first of the vectors whose square is the largest."""
+    """(3, m) on each curve the first vector of largest square."""
     reached = np.flatnonzero(square == np.repeat(curves.max(square), curves.sizes))
     found, first = np.unique(curves.label[reached], return_index=True)
     chosen: Rows = reached[first]

@@ -1,4 +1,4 @@
-"""Curves: many polygons at once, open and closed, with their edges and tangents, in any dimension."""
+"""Curves: arrays of many polygons, open and closed, in any dimension, with edges and tangents."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ Mask = NDArray[np.bool_]
 
 
 def scaled(values: Floats, power: Rows | NDArray[np.int32]) -> Floats:
-    """Values times 2 to a power; NaN where no double holds them."""
+    """Values times 2 to a power; NaN on overflow."""
     with np.errstate(over="ignore", under="ignore"):
         found = np.ldexp(values, power)
     return np.where(np.isfinite(found) & ((found != 0) | (values == 0)), found, np.nan)
 
 
 class Curves:
-    """Polygonal curves one after the other, so that one sweep serves ten curves or a hundred thousand.
+    """Polygonal curves in concatenated arrays, for vectorised functions over any number of curves.
 
-    xyz: (d, n) positions of all vertices. start: (m + 1,) where each curve begins. closed: (m,).
-    Vertex i owns the edge that leaves it; the last vertex of an open curve owns none. What belongs to an edge stands in
-    the row of the vertex it leaves, NaN where there is none. Lengths are in the unit of xyz.
+    xyz: (d, n) positions of all vertices. start: (m + 1,) first vertex of each curve. closed: (m,).
+    Edge i leaves vertex i; the last vertex of an open curve has none. Values of an edge are in the row of its first
+    vertex, NaN without an edge. Lengths are in the unit of xyz.
     """
 
     def __init__(self, xyz: Floats, start: Rows, closed: Mask) -> None:
@@ -63,7 +63,7 @@ class Curves:
 
     @cached_property
     def following(self) -> Rows:
-        """(n,) the vertex at the head of each vertex's edge; the vertex itself where there is no edge."""
+        """(n,) the vertex at the head of each vertex's edge; the vertex itself without an edge."""
         after = np.arange(1, self.size + 1)
         filled = self.sizes > 0
         last = self.start[1:][filled] - 1
@@ -81,14 +81,14 @@ class Curves:
 
     @cached_property
     def has_edge(self) -> Mask:
-        """(n,) whether an edge leaves the vertex: everywhere but at the end of open curves."""
+        """(n,) mask of the vertices with a leaving edge: all but the last of open curves."""
         mask = np.ones(self.size, bool)
         mask[self.start[1:][~self.closed & (self.sizes > 0)] - 1] = False
         return mask
 
     @cached_property
     def inner(self) -> Mask:
-        """(n,) vertices between two edges: all but the ends of open curves."""
+        """(n,) mask of the vertices between two edges: all but the ends of open curves."""
         mask = self.has_edge.copy()
         mask[self.start[:-1][~self.closed & (self.sizes > 0)]] = False
         return mask
@@ -114,33 +114,33 @@ class Curves:
 
     @property
     def edge_length(self) -> Floats:
-        """(n,) length of the edge that leaves each vertex."""
+        """(n,) length of the edge leaving each vertex; NaN at the end of open curves."""
         return self._edge[0]
 
     @property
     def tangent(self) -> Floats:
-        """(d, n) unit tangent T of the edge that leaves each vertex; NaN where the edge has no length."""
+        """(d, n) unit tangent T of the edge leaving each vertex; NaN for edges of length 0."""
         return self._edge[1]
 
     @cached_property
     def length(self) -> Floats:
-        """(m,) length of each curve; NaN where no double holds it."""
+        """(m,) length of each curve; NaN on overflow."""
         with np.errstate(over="ignore"):
             length = self.sum(self.edge_length)
-        # An edge that no double measures is NaN, which a sum would leave out.
+        # An edge length that overflows is NaN, which a sum would leave out.
         unknown = self.sum(np.isnan(self.edge_length) & self.has_edge) > 0
         return np.where(np.isfinite(length) & ~unknown, length, np.nan)
 
     @cached_property
     def arc(self) -> Floats:
-        """(n,) arc length from the beginning of the curve to each vertex; NaN where no double holds it."""
+        """(n,) arc length from the beginning of the curve to each vertex; NaN on overflow."""
         with np.errstate(over="ignore"):
             arc = self.running(np.where(np.isnan(self.edge_length), np.inf, self.edge_length))
         return np.where(np.isfinite(arc), arc, np.nan)
 
     @cached_property
     def local(self) -> tuple[Floats, Rows]:
-        """Positions (d, n) about the first point of each curve, in units of 2 to a power (m,) that is near its size."""
+        """Positions (d, n) about the first point of each curve, in units of a power of 2 (m,) near its size."""
         filled = self.sizes > 0
         xyz, unit = self._safe
         origin = np.zeros((self.dimension, len(self)))
@@ -172,7 +172,7 @@ class Curves:
     def running(self, values: Floats) -> Floats:
         """(n,) at each vertex the sum of the values at the vertices before it on its curve.
 
-        By doubling: as exact as a pairwise sum, and no curve's rounding reaches the next.
+        Computed by doubling: as exact as a pairwise sum, without rounding errors from other curves.
         """
         total = np.zeros(self.size)
         position = np.arange(self.size) - np.repeat(self.start[:-1], self.sizes)
@@ -187,12 +187,12 @@ class Curves:
     # ------------------------------------------------------------------ repeated points
 
     def distinct(self) -> tuple[Curves, Rows]:
-        """The same curves without edges of length 0, and the vertices that are left.
+        """Remove edges of length 0: the curves, and the index of the remaining vertices.
 
-        Of points that repeat one another the last stays: it is where the curve goes on.
+        The last of equal consecutive points is kept.
         """
         keep = ~(self.edge_length == 0)
-        # A closed curve that never leaves its first point has no vertex left; an open one keeps its last.
+        # A closed curve of equal points keeps no vertex; an open one keeps its last.
         if keep.all():
             return self, np.arange(self.size)
         kept = np.flatnonzero(keep)
@@ -201,7 +201,7 @@ class Curves:
 
 
 def curves_of(points: ArrayLike, closed: bool) -> Curves:
-    """One curve from its points (n, d).
+    """Make one curve from its points (n, d).
 
     Errors: InputError for points that are not finite numbers of shape (n, d), n ≥ 1 and d ≥ 2.
     """

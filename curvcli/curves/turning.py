@@ -1,4 +1,4 @@
-"""Turning angles, the two other discretisations of curvature, and what their sums are."""
+"""Turning angles ψ, the discretisations 2 sin(ψ/2) and 2 tan(ψ/2) of curvature, and their sums."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import numpy as np
 from ..mesh.triangles import EPSILON
 from .polygon import Curves, Floats, Mask
 
-# Sums and differences of unit tangents below this are rounding: the edges run on, or turn back, in one line.
+# Sums and differences of unit tangents below this are rounding: the edges are collinear.
 _ROUNDING = 4 * EPSILON
 
 
 @dataclass(frozen=True)
 class Turning:
-    """How curves turn at their vertices; curves without repeated points, any dimension.
+    """Turning of curves at their vertices; curves without repeated points, any dimension.
 
     Vertices between two edges only; the ends of open curves have NaN.
     """
@@ -48,13 +48,13 @@ class Turning:
 
     @cached_property
     def straight(self) -> Mask:
-        """(n,) vertices where the curve goes straight on, to rounding."""
+        """(n,) mask of the vertices with ψ = 0 to rounding."""
         mask: Mask = self._change[1] <= _ROUNDING
         return mask
 
     @cached_property
     def reversed(self) -> Mask:
-        """(n,) vertices where the curve turns back on itself, ψ = π to rounding."""
+        """(n,) mask of the vertices with ψ = π to rounding."""
         mask: Mask = self.curves.inner & (self._change[2] <= _ROUNDING)
         return mask
 
@@ -84,9 +84,9 @@ class Turning:
 
     @cached_property
     def unknotted(self) -> Mask:
-        """(m,) closed curves in space that Σψ proves unknotted where they do not cross themselves: Σψ ≤ 4π.
+        """(m,) mask of the closed curves in space with Σψ ≤ 4π, unknotted if without self-crossings (Fáry–Milnor).
 
-        The converse proves nothing: a curve that turns by more need not be a knot.
+        The converse is false: an unknotted curve may have a larger Σψ.
         """
         bound = 4 * np.pi - 16 * EPSILON * self.curves.sizes
         mask: Mask = self.curves.closed & (self.total <= bound) & (self.curves.dimension == 3)

@@ -22,7 +22,7 @@ UNSURE = 0.25
 
 # A block of pairs whose temporaries stay in the second-level cache.
 _ROWS, _COLUMNS = 16, 1024
-# Up to so many edges curves of equal size are summed together.
+# Curves of equal size up to so many edges are summed together.
 _SMALL = 96
 _TOGETHER = 1 << 15
 
@@ -62,7 +62,7 @@ def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, F
 
 
 def within(edges: Rows, max_edges: int | None) -> NDArray[np.bool_]:
-    """(m,) curves whose double sums are done: from the smallest up while √Σ edges² ≤ max_edges."""
+    """(m,) mask of the curves with a double sum: from the smallest up while √Σ edges² ≤ max_edges."""
     if max_edges is None:
         return np.ones(len(edges), bool)
     order = np.argsort(edges, kind="stable")
@@ -130,7 +130,7 @@ class _Pairs:
 
 
 def edge_pairs(one: Floats, other: Floats) -> _Pairs:
-    """Signed solid angle of the directions from each edge of `one` to each of `other`, and what is known of it.
+    """Signed solid angle of the directions from each edge of `one` to each of `other`, with its condition.
 
     one: (3, m, r + 1) corners, other: (3, m, c + 1). The sum of the two triangles' half-angles is the argument of
     (D₁ + iV)(D₂ + iV), V the triple product of the quadrilateral, D = abc + (a·b)c + (b·c)a + (c·a)b (Van Oosterom and

@@ -30,7 +30,7 @@ LENGTH_EXPONENT = {
     "volume": 3,
     "H_theta": 1,
 }
-"""How columns and totals grow with the surface; a name that is absent here does not."""
+"""Length exponents of columns and totals; absent names have exponent 0."""
 
 _WORDS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 
