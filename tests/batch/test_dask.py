@@ -57,6 +57,7 @@ def cluster(tmp_path: Path, trapped: dict[str, str]) -> Iterator[Cluster]:
             process.communicate()
 
 
+@pytest.mark.slow
 def test_a_killed_worker_costs_a_retry_and_the_summary_is_the_same(
     tmp_path: Path, trapped: dict[str, str], cluster: Cluster
 ) -> None:
@@ -84,6 +85,7 @@ def test_a_killed_worker_costs_a_retry_and_the_summary_is_the_same(
         assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
 
 
+@pytest.mark.slow
 def test_local_workers_give_the_same_tables(scans: Path, run: Run) -> None:
     ended = run("batch", "scans/**/*", "-o", "out", "--save", "csv", "--scheduler", "local:2", "-q")
     assert ended.code == 3

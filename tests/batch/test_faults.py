@@ -94,6 +94,7 @@ def told(environment: dict[str, str], folder: Path, process: subprocess.Popen[by
         return [int(number) for number in pipe.readline().split()]
 
 
+@pytest.mark.slow
 def test_harm_costs_the_mesh_that_does_it_only(tmp_path: Path, trapped: dict[str, str]) -> None:
     good(tmp_path / "scans")
     for vertices in range(11, 16):
@@ -128,6 +129,7 @@ def test_harm_costs_the_mesh_that_does_it_only(tmp_path: Path, trapped: dict[str
     assert sorted(ended.stderr.splitlines()) == sorted(f"curvcli: {row[2]}" for row in rows.values() if row[2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", [signal.SIGKILL, signal.SIGINT])
 def test_an_end_at_any_moment_changes_nothing(tmp_path: Path, trapped: dict[str, str], end: signal.Signals) -> None:
     good(tmp_path / "scans")

@@ -57,6 +57,7 @@ def test_meshes_in_memory_are_analysed(scans: Path, run: Run) -> None:
     memory.store.clear()
 
 
+@pytest.mark.slow
 def test_meshes_on_a_server_are_analysed(scans: Path, run: Run, server: str) -> None:
     pytest.importorskip("aiohttp", reason="curvcli[remote] is not installed")
     Path("list").write_text("".join(f"{server}/scans/{name}\n" for name in (*GOOD, *BAD, "missing.ply")))

@@ -43,6 +43,7 @@ def grow(path: Path) -> None:
         stream.write(b"\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("damage", "name"),
     [
@@ -85,6 +86,7 @@ def test_a_manifest_without_hashes_proves_nothing(scans: Path, run: Run) -> None
     assert pl.read_csv("out/a.obj.csv").height == 8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["summary", "SUMMARY", "Summary", "manifest", "summary.csv", "summary.parquet"])
 def test_a_mesh_that_is_called_like_the_files_of_the_batch(
     tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch, name: str

@@ -105,6 +105,7 @@ def _page(text: str) -> None:
     assert not any(name.startswith("on") for _, attributes in page.tags for name in attributes)
 
 
+@pytest.mark.slow
 @every
 def test_every_format_of_check(source: Source, within: Run, tmp_path: Path) -> None:
     arguments = [*source.make(tmp_path), "--require", "genus=7,outward", "--assert", "max(K) < -99"]
@@ -149,6 +150,7 @@ def test_what_was_stored(within: Run, tmp_path: Path) -> None:
             _spreadsheet(tmp_path / "d.csv")
 
 
+@pytest.mark.slow
 def test_batches_escape_names_of_files(within: Run, tmp_path: Path) -> None:
     (tmp_path / "in").mkdir()
     for number, text in enumerate(PAYLOADS):
@@ -248,6 +250,7 @@ def odd(K, A):
 '''
 
 
+@pytest.mark.slow
 def test_texts_of_plug_ins_are_escaped(tmp_path: Path) -> None:
     ply(tmp_path)
     there = install(tmp_path, PLUG_IN)

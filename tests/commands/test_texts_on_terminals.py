@@ -56,6 +56,7 @@ def harmless(text: str, what: object) -> None:
     plain(OWN.sub("", text), what)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="pseudo-terminals are POSIX's")
 @pytest.mark.parametrize("source", [s for s in SOURCES if s.name not in ("objects", "materials")], ids=lambda s: s.name)
 def test_terminals_get_no_control_sequences(source: Source, tmp_path: Path) -> None:
@@ -68,6 +69,7 @@ def test_terminals_get_no_control_sequences(source: Source, tmp_path: Path) -> N
         assert "[/x]" in said.replace("\r\n", "") or source.name == "unit"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="pseudo-terminals are POSIX's")
 def test_terminals_that_compare(tmp_path: Path) -> None:
     for pair in stored(tmp_path):

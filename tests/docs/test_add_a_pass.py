@@ -55,6 +55,7 @@ def install(project: Path) -> None:
     (info / "entry_points.txt").write_text(f"[curvcli.passes]\n{lines}")
 
 
+@pytest.mark.slow
 def test_the_page_as_written(project: Path) -> None:
     paths = {"PYTHONPATH": f"{project}:{project / 'plugin'}"}
     steps = [block for block in blocks(PAGE) if not block.reason]

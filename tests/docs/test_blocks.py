@@ -110,6 +110,7 @@ def stage(tmp_path_factory: pytest.TempPathFactory, programs: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in NAMES if runnable(name)])
 def test_the_blocks_of_a_page_run_as_written(
     name: str, stage: Path, programs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

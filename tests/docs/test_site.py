@@ -35,6 +35,7 @@ def built(folder: Path) -> None:
     assert "WARNING" not in done.stderr
 
 
+@pytest.mark.slow
 def test_the_site_builds(tmp_path: Path) -> None:
     built(tmp_path)
     pages = {path.relative_to(tmp_path).as_posix() for path in tmp_path.glob("**/*.html")}

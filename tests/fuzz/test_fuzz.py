@@ -36,12 +36,14 @@ def held(cases: st.SearchStrategy[Case], folder: Path, many: int, run: Any = in_
     return counts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(2))
 def test_whole_files_are_read(tmp_path: Path, part: int) -> None:
     counts = held(sound().filter(lambda case: len(case.data) % 2 == part), tmp_path, 250)
     assert counts["read"] > 60
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "read"), [("obj", 40), ("ply", 15), ("stl", 30), ("strips", 5)])
 def test_damaged_files_are_read_or_refused(tmp_path: Path, kind: str, read: int) -> None:
     counts = held(mutated(kind), tmp_path, 350)
@@ -49,11 +51,13 @@ def test_damaged_files_are_read_or_refused(tmp_path: Path, kind: str, read: int)
     assert counts["refused"] > 100
 
 
+@pytest.mark.slow
 def test_noise_is_read_or_refused(tmp_path: Path) -> None:
     counts = held(noise(), tmp_path, 250)
     assert counts["refused"] > 150
 
 
+@pytest.mark.slow
 def test_coordinates_at_the_ends_of_the_range(tmp_path: Path) -> None:
     counts = held(ends(), tmp_path, 120)
     assert counts["read"] > 60

@@ -15,6 +15,7 @@ from tests.fuzz.process import real
 MEGABYTE = 10**6
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory of a process is told differently elsewhere")
 @pytest.mark.parametrize("name", FILES)
 def test_an_answer_in_time(tmp_path: Path, name: str) -> None:

@@ -59,6 +59,7 @@ def test_what_keeps_its_bounds_is_as_without(code: int, arguments: tuple[str, ..
     assert bounded.code == code
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command_line", [("analyze",), ("check",), ("curves",), ("compare", CUBE)], ids=" ".join)
 def test_what_needs_too_much_memory(command_line: tuple[str, ...], tmp_path: Path) -> None:
     path = tmp_path / "large.obj.gz"

@@ -105,6 +105,7 @@ def bombs(folder: Path) -> dict[str, str]:
     }
 
 
+@pytest.mark.slow
 def test_tables_out_of_proportion(tmp_path: Path) -> None:
     for name, words in bombs(tmp_path).items():
         assert (tmp_path / name).stat().st_size < 2 * MEGABYTE, name
@@ -149,6 +150,7 @@ def test_a_crowd_in_one_spot_is_welded_in_blocks(monkeypatch: pytest.MonkeyPatch
     assert 300 < (at_once != np.arange(3400)).sum() < 420
 
 
+@pytest.mark.slow
 def test_a_crowd_in_one_spot_takes_memory_in_proportion(tmp_path: Path) -> None:
     random = np.random.default_rng(2)
     points = np.concatenate([random.random((120_000, 3)), 0.5 + 1e-4 * random.random((4_500, 3))])
@@ -161,6 +163,7 @@ def test_a_crowd_in_one_spot_takes_memory_in_proportion(tmp_path: Path) -> None:
     assert near.megabytes < apart.megabytes + 150
 
 
+@pytest.mark.slow
 def test_a_long_name_on_every_face(tmp_path: Path) -> None:
     count = 1500
     lines = [f"v {k % 40} {k // 40} 0" for k in range(1600)]

@@ -83,11 +83,13 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["obj", "odd.obj", "slashes.obj", "ply", "stl"])
 def test_reading_in_a_child(name: str, texts: dict[str, Path]) -> None:
     program(SAME, texts[name])
 
 
+@pytest.mark.slow
 def test_writing_in_a_child(texts: dict[str, Path], tmp_path: Path) -> None:
     text = """
 from curvcli.output.write import Appearance, write_outputs

@@ -56,6 +56,7 @@ MOMENTS = [float(x) for x in np.random.default_rng(1).uniform(0, 1, 3)]
 SIGNALS = {signal.SIGKILL: -9, signal.SIGTERM: 143, signal.SIGINT: 130}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", SIGNALS, ids=lambda number: signal.Signals(number).name)
 @pytest.mark.parametrize("moment", MOMENTS)
 def test_killed_while_it_writes(
@@ -80,6 +81,7 @@ def test_killed_while_it_writes(
         assert all(name.startswith(".curvcli-") and name.endswith(".part") for name in temporaries(tmp_path))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_killed_while_names_change(
     number: signal.Signals, large: Path, complete: dict[str, bytes], tmp_path: Path

@@ -15,6 +15,7 @@ from tests.helpers.cli.program import command, environment
 SCARCE = b"curvcli: out of memory; use a machine with more memory or a smaller mesh\n"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds the address space of a process")
 @pytest.mark.parametrize("suffix", ["obj", "ply", "stl"])
 @pytest.mark.parametrize("megabytes", [int(size) for size in np.geomspace(200, 3000, 7)])

@@ -91,6 +91,7 @@ def test_outputs_outlive_a_reader_of_the_summary(small: Path, tmp_path: Path) ->
     assert sorted(path.name for path in tmp_path.iterdir()) == ["alone.csv", "k.csv", "k.json"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("force", [[], ["--force"]])
 def test_two_runs_on_one_output(force: list[str], tmp_path: Path) -> None:
     """Both have looked at the output before either writes; then one mesh is given, then the other."""

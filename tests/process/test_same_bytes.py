@@ -33,6 +33,7 @@ def outputs(mesh: Path, names: tuple[str, ...], folder: Path, threads: int, pass
     return found | {"k.json": json.dumps(report).encode()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "suffix", "passes", "names"),
     [

@@ -62,6 +62,7 @@ LINES: tuple[tuple[str, ...], ...] = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", LINES, ids=" ".join)
 def test_a_writer_that_pauses_is_waited_for(arguments: tuple[str, ...], mesh: bytes, tmp_path: Path) -> None:
     """The pipe does not block, and is empty amid the mesh."""
@@ -83,6 +84,7 @@ def test_a_writer_that_pauses_is_waited_for(arguments: tuple[str, ...], mesh: by
     assert (process.returncode, out, err) == (calm.returncode, calm.stdout, calm.stderr)
 
 
+@pytest.mark.slow
 def test_a_list_of_files_whose_writer_pauses(tmp_path: Path) -> None:
     read, write = os.pipe()
     os.set_blocking(read, False)

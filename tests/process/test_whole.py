@@ -65,6 +65,7 @@ def timeless(data: bytes) -> bytes:
     return data.partition(b'"timings"')[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [one for one in WRITERS if one[1:2] in COLD], ids=" ".join)
 def test_a_short_write_is_continued_or_refused(arguments: tuple[str, ...], tmp_path: Path) -> None:
     """A file that may have 1,024 bytes and no more takes a part of the first write and refuses the next."""
@@ -87,6 +88,7 @@ def test_a_short_write_is_continued_or_refused(arguments: tuple[str, ...], tmp_p
     assert b"Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", WRITERS, ids=" ".join)
 def test_a_pipe_that_does_not_block_gets_everything(arguments: tuple[str, ...]) -> None:
     code, whole = expected(arguments)
