@@ -1,4 +1,4 @@
-"""`python -m benchmarks.behaviour`: what each library says of five files on which the truth is known.
+"""`python -m benchmarks.behaviour`: the answer of each library to five files with known curvature.
 
 Every library reads the file with its own reader and computes with its own functions, at their defaults. Densities are
 multiplied with the area that the library divides by, so that sums of Gauss curvature can be compared. Peers that are
@@ -37,7 +37,7 @@ GEOMETRY_CENTRAL = Path(__file__).parent / "geometry_central" / "curvatures"
 
 @dataclass(frozen=True)
 class Said:
-    """What a library says: K at every row it has, as a measure; H where it has one, as its own density."""
+    """The answer of a library: K at every row, as a measure; H, if it has one, as its own density."""
 
     K: Floats
     H: Floats | None = None
@@ -180,7 +180,7 @@ def seam(folder: Path) -> Path:
 
 @dataclass(frozen=True)
 class Case:
-    """A file, what is true of it, and how an answer is told in a few words."""
+    """A file, its known curvature, and a summary of an answer in a few words."""
 
     make: Callable[[Path], Path]
     truth: str
@@ -231,7 +231,7 @@ def quiet() -> Any:
 
 
 def measure(libraries: Iterable[str] | None = None) -> dict[str, dict[str, str]]:
-    """What each library, or each of those named, says of each case, in words; `not installed` where it is not."""
+    """The answer of each library, or of the named ones, to each case, in words; `not installed` without the library."""
     found: dict[str, dict[str, str]] = {}
     with tempfile.TemporaryDirectory() as folder:
         files = {name: str(case.make(Path(folder))) for name, case in CASES.items()}

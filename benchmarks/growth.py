@@ -1,4 +1,4 @@
-"""What each preset costs, and how the cost of a vertex grows with the mesh."""
+"""Cost of each preset, and growth of the cost per vertex with the mesh."""
 
 from __future__ import annotations
 

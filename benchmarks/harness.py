@@ -44,7 +44,7 @@ class Case:
 
 @dataclass
 class Results:
-    """What each case measured in each round, and why a case could not run."""
+    """Measurements of each case in each round, and the reasons of cases that could not run."""
 
     rounds: dict[str, list[Measured]]
     failures: dict[str, str]
@@ -113,7 +113,7 @@ def interleaved(cases: Mapping[str, Case], repeats: int, what: str, warm_up: boo
 
 
 def report(measured: Mapping[str, object]) -> None:
-    """How a case tells what it measured, from within its process."""
+    """Print the measurement of a case, from its process, and exit."""
     sys.stdout.flush()
     print("\n" + json.dumps(measured), flush=True)
     os._exit(0)  # what a library does when it is torn down is not part of the measurement

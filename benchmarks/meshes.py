@@ -32,12 +32,12 @@ class Mesh:
 
     @property
     def name(self) -> str:
-        """What its files are called."""
+        """Stem of its files."""
         return f"{self.shape}-{self.order}-{self.size}"
 
     @property
     def closed(self) -> bool:
-        """Whether the surface has no boundary."""
+        """True without a boundary."""
         return self.shape != "plate"
 
     def path(self, suffix: str) -> str:

@@ -1,4 +1,4 @@
-"""How users of other libraries read a mesh, compute curvatures and write them; imports stand where they are used."""
+"""Reading, computing and writing with other libraries, as their users do; each function imports its library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What stands before the first vertex: an empty Python, imports, the help, a mesh of a thousand vertices."""
+"""Start-up time: an empty Python, imports, the help, a mesh of a thousand vertices."""
 
 from __future__ import annotations
 

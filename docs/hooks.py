@@ -1,4 +1,4 @@
-"""What mkdocs calls: pages that follow from the code are shown as the code is now, plug-ins included."""
+"""Hook of mkdocs: generate pages from the installed code, plug-ins included."""
 
 from __future__ import annotations
 

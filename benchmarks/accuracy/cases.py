@@ -1,4 +1,4 @@
-"""What is measured: surfaces under triangulations of several kinds, with noise."""
+"""Cases: surfaces under triangulations of several kinds, with noise."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What other libraries say of the same mesh at the same radius: `python peers.py NAME IN.npz RINGS RADIUS OUT.npz`.
+"""Curvatures of other libraries on one mesh at one radius: `python peers.py NAME IN.npz RINGS RADIUS OUT.npz`.
 
-A file of its own without imports of ours, so that it runs in the environment that has the peer.
+A separate file without imports of curvcli, so that it runs in the environment of the peer.
 """
 
 from __future__ import annotations

@@ -60,7 +60,7 @@ def size_of(found: ErrorNorms) -> float:
 
 
 def _order(values: Sequence[float], heads: Sequence[tuple[str, float]]) -> str:
-    """How fast the error falls with the edge length, between the first and the last size; – where it is rounding."""
+    """Order of the error in the edge length, between the first and the last size; – for rounding."""
     first, last = values[0], values[-1]
     if not (math.isfinite(first) and math.isfinite(last)) or len(values) < 2 or first < 1e-9 or last <= 0:
         return "–"

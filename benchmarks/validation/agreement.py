@@ -1,4 +1,4 @@
-"""How many digits agree with 50-digit arithmetic, with the Surface Evolver, libigl and VTK, and where they differ."""
+"""Agreement in digits with 50-digit arithmetic, the Surface Evolver, libigl and VTK."""
 
 from __future__ import annotations
 

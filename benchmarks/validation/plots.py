@@ -6,7 +6,7 @@ from pathlib import Path
 
 from .convergence import ROUNDING, Course
 
-# What a picture shows, as far as it was measured; every row stands in the tables.
+# Rows of a picture; the tables have all rows.
 SHOWN = (
     "h_signed",
     "K_density",

@@ -1,4 +1,4 @@
-"""Pages of the documentation that are made from the code: `python -m docs.pages docs` makes them again."""
+"""Pages of the documentation generated from the code, by `python -m docs.pages docs`."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _PART = re.compile(r"(<!-- made: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
 def current(name: str, text: str) -> str:
-    """A page as the code would make it now; `text` where it is written by hand, but for the parts that are not."""
+    """A page generated from the code, or `text` with its generated parts replaced."""
     if name == HOOKS:
         return hook(text)
     if name in PAGES:
@@ -47,7 +47,7 @@ def current(name: str, text: str) -> str:
 
 
 def renew(folder: Path) -> list[str]:
-    """Make the pages of a folder again; the names of those that changed."""
+    """Generate the pages of a folder; return the names of changed pages."""
     changed = []
     for path in sorted({*folder.glob("**/*.md"), *(folder / name for name in PAGES), folder.parent / HOOKS}):
         text = path.read_text(encoding="utf-8") if path.exists() else ""

@@ -1,4 +1,4 @@
-"""`python -m docs.pages docs`: make the pages again that follow from the code, and name those that changed."""
+"""`python -m docs.pages docs`: generate pages from the code, and print the names of changed pages."""
 
 from __future__ import annotations
 

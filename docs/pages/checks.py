@@ -9,33 +9,33 @@ from curvcli.curvatures.catalogue import load_passes
 _INTRODUCTION = """\
 # Checks
 
-Made from the declarations in `curvcli/checks/` and `curvcli/checks/requirements/`. ε = 2⁻⁵²; F and V count faces and
+This page is generated from `curvcli/checks/` and `curvcli/checks/requirements/`. ε = 2⁻⁵²; F and V count faces and
 vertices, N is 3F + V; the extent of a face is √(¾Σ|e|²) over its edges, half its perimeter or up to 1.23 times that. An
 *identity* is a theorem: it holds for every mesh that it applies to, up to rounding, and so it proves the arithmetic,
-not the mesh. A *requirement* is a property that a mesh has or has not.
+not the mesh. A *requirement* is a property of a mesh.
 
-`curvcli analyze` tests each identity whose quantities are computed anyway; `curvcli check` tests all of them, and the
-requirements. Each is tested on the whole surface, on every component, and on every region where there are regions.
-The status is `pass`, `fail`, or `not_applicable` with the reason; an identity with an undefined term is not applicable,
-never passed, nor is one whose sides no double holds in the file's unit.
+`curvcli analyze` tests the identities of the computed quantities. `curvcli check` tests all identities, and the
+requirements. The scope is the whole surface, every component, and every region. The status is `pass`, `fail`, or
+`not_applicable` with the reason. An identity with an undefined term, or with sides beyond the range of doubles in the
+unit of the file, is not applicable, never passed.
 
 ## When an identity fails
 
-1. Read `scope` and `detail`: they name the component or region, and by how much it fails.
+1. Read `scope` and `detail`: the component or region, and the size of the failure.
 2. Read the warnings of the report. Values beyond the range of doubles (`out_of_range`) are undefined.
-3. Run the same file with `-p all`: other identities over the same columns tell which column is wrong.
-4. If columns of a plug-in are among what it needs, ask its author.
-5. Otherwise it is a defect of curvcli or of the machine. No shape of a mesh explains it. Please report it, with the
-   file if you may.
+3. Run the same file with `-p all`: other identities of the same columns locate the wrong column.
+4. If the identity needs columns of a plug-in, report it to the author of the plug-in.
+5. Otherwise it is a defect of curvcli or of the machine, for an identity holds on every mesh. Please report it, with
+   the file if possible.
 """
 
 _REQUIREMENTS = """\
 ## Requirements
 
-A requirement that fails says how many places there are and names the first. Those marked * are required by
-`curvcli check` unless `--allow NAME` drops them; the others are asked for with `--require`.
+A failed requirement has the number of places and names the first. `curvcli check` always tests those marked *, except
+those in `--allow NAME`. `--require` adds the others.
 
-| requirement | what it promises | where it fails |
+| requirement | statement | remedy |
 |---|---|---|
 """
 

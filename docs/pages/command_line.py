@@ -1,4 +1,4 @@
-"""The page of the command line: what `--help` says of every command."""
+"""The page of the command line, from the help of every command."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ _WIDTH = 88
 _INTRODUCTION = """\
 # The command line
 
-Made from `curvcli --help` and `curvcli COMMAND --help`. Options may stand before or after meshes. Their defaults may be
-set in a file: see [formats](formats.md#configuration). What the exit codes mean stands there too.
+This page is the output of `curvcli --help` and `curvcli COMMAND --help`. Options may precede or follow meshes. A
+[configuration file](formats.md#configuration) may set their defaults. The [exit codes](formats.md#exit-codes) are on
+another page.
 """
 
 

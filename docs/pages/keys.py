@@ -1,4 +1,4 @@
-"""The page of everything written as JSON: the keys of every object, from the schemas."""
+"""The page of the JSON outputs: the keys of every object, from the schemas."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from curvcli.commands.schemas import SCHEMAS
 _INTRODUCTION = """\
 # Schemas
 
-The JSON Schemas stand in `curvcli/commands/data/schemas/` of the package. `--schema` of a command prints them with the
-names of all columns. What was not computed is absent, what is undefined is null. `schema_version` counts changes that a
-reader must know of: see [compatibility](compatibility.md).
+The package has the JSON Schemas in `curvcli/commands/data/schemas/`. `--schema` of a command prints them with the names
+of all columns. A value that was not computed is absent; an undefined value is null. `schema_version` counts
+incompatible changes: see [compatibility](compatibility.md).
 """
 
 

@@ -1,4 +1,4 @@
-"""The columns of every table but that of vertices, which has a page of its own."""
+"""The columns of every table except the table of vertices, which has a page of its own."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from curvcli.output.tables.columns import TABLES
 
 _KEYS = {
     "edges": (
-        ("edge", "its index, in the order of `a`, then `b`"),
+        ("edge", "index, in the order of `a`, then `b`"),
         ("a", "the vertex of lower index"),
         ("b", "the vertex of higher index"),
-        ("faces", "how many faces meet there: 1 on the boundary, 2 inside, more where the surface branches"),
+        ("faces", "number of faces at the edge: 1 on the boundary, 2 inside, more where the surface branches"),
     ),
     "faces": (
-        ("face", "its index among the triangles"),
-        ("polygon", "the face of the file that it came from"),
+        ("face", "index among the triangles"),
+        ("polygon", "its face of the file"),
         ("a", "first corner"),
         ("b", "second corner"),
         ("c", "third corner"),
@@ -31,19 +31,19 @@ _REGION = ("region", "the label of the face's region, with `--regions` only")
 
 
 def page_part() -> str:
-    """Columns of the tables of edges and faces with what they are, of the others by the keys of the report."""
+    """Columns of the tables of edges and faces with definitions, of the others by the keys of the report."""
     load_passes()
     parts = []
     for kind, keys in _KEYS.items():
         rows = [*keys, *_quantities(_ELEMENTS[kind]), *([_REGION] if kind == "faces" else [])]
-        parts += [f"### {kind}\n", "| column | what it is |", "|---|---|"]
+        parts += [f"### {kind}\n", "| column | definition |", "|---|---|"]
         parts += [f"| `{name}` | {text} |" for name, text in rows]
         parts.append("")
     example = _example()
     for kind in ("loops", "components", "regions"):
         names = ", ".join(f"`{name}`" for name in TABLES[kind](example))
         parts += [f"### {kind}\n", f"{names}\n"]
-    parts += ["`region` is the label, as in the table of faces, and `name` the same under the key of the report.\n"]
+    parts += ["`region` is the label, as in the table of faces. `name` is its key in the report.\n"]
     return "\n".join(parts)
 
 
@@ -56,6 +56,6 @@ def _quantities(element: Element) -> list[tuple[str, str]]:
 
 
 def _example() -> Result:
-    """Two triangles in two regions, with all that a report can say."""
+    """Two triangles in two regions, with every part of a report."""
     points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]])
     return analyze((points, np.array([[0, 1, 2], [0, 2, 3]])), "paper", regions=np.array([0, 1]))
