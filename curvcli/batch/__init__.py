@@ -1,1 +1,1 @@
-"""Many meshes: what to do (plan), one mesh (run), who does it (processes, dask), what was done (manifest, summary)."""
+"""Batches of meshes: plan, one mesh (run), workers (processes, dask), results (manifest, summary)."""

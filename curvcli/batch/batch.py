@@ -1,4 +1,4 @@
-"""A batch from its plan to its summary, whoever does the work."""
+"""Batch from its plan to its summary, on any engine."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Batch:
         _sweep(self.items)
 
     def todo(self) -> list[Item]:
-        """The meshes that are not done, or changed, or whose outputs are not what was written."""
+        """Meshes that are not done, or changed, or whose outputs differ from those written."""
         with ThreadPoolExecutor() as pool:
             done = list(pool.map(self._done, self.items))
         for item, row in zip(self.items, done, strict=True):
@@ -54,7 +54,7 @@ class Batch:
         return [item for item, row in zip(self.items, done, strict=True) if row is None]
 
     def work(self, engine: Engine, todo: Sequence[Item]) -> Iterator[Row]:
-        """Do what is to be done; every row is on the disk before it is handed on."""
+        """Run the meshes; every row is on the disk before it is yielded."""
         for row in engine(todo, self.settings):
             row.options = self._options
             if row.status in _WRITTEN:
@@ -67,14 +67,14 @@ class Batch:
             yield row
 
     def finish(self) -> None:
-        """Write the summary of what has ended, and remove what was not finished; no worker may work any more."""
+        """Write the summary of the ended meshes, and remove unfinished outputs; no worker may be running."""
         _sweep(self.items)
         ended = self._kept | self.manifest.added()
         self.rows = [ended[item.path] for item in self.items if item.path in ended]
         write_summary(self.folder, self.rows)
 
     def _done(self, item: Item) -> Row | None:
-        """The row of an earlier run if nothing has changed; what may go better this time is done again."""
+        """Row of an earlier run if nothing has changed; errors that may be temporary are tried again."""
         row = self.manifest.rows.get(item.path)
         if row is None or (row.options, row.version) != (self._options, __version__):
             return None
@@ -85,7 +85,7 @@ class Batch:
         return row if row.sha256 == _hash(item) else None
 
     def _whole(self, row: Row, item: Item) -> bool:
-        """Whether every output is there, byte for byte as it was written; lengths tell most of what is cut off."""
+        """True if every output is unchanged, byte for byte; lengths are compared first."""
         if [one.path for one in row.outputs] != self._shown(item):
             return False
         pairs = [(one, path) for one, (_, path) in zip(row.outputs, item.outputs, strict=True)]
@@ -112,7 +112,7 @@ def _hash(item: Item) -> str | None:
 
 
 def _sweep(items: Sequence[Item]) -> None:
-    """Remove what a run that was killed left half-written; the lock on the manifest says that nobody writes now."""
+    """Remove half-written outputs of a killed run; the lock on the manifest excludes other writers."""
     for folder in {os.path.dirname(path) for item in items for _, path in item.outputs}:
         for part in glob.glob(os.path.join(glob.escape(folder), ".curvcli-*.part")):
             with suppress(OSError):

@@ -1,4 +1,4 @@
-"""The engine of a cluster: the same workers, each held by a thread of a Dask worker."""
+"""Engine of a Dask cluster: the workers of one machine, each owned by a thread of a Dask worker."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from .model import Engine, Item, Limits, Row, Settings
 from .outcome import lost
 from .processes import ONE_THREAD, Worker
 
-# Seconds that a scheduler, and then its first worker, may take to answer.
+# Seconds to wait for a scheduler, and then for its first worker.
 _WAIT = 15.0
 
 
 class SchedulerLostError(CurvcliError):
-    """A cluster that went away while it worked."""
+    """Connection to a cluster lost during the work."""
 
 
 @contextmanager
 def connect(scheduler: str, limits: Limits) -> Iterator[Engine]:
-    """The engine that works on the cluster at an address, or on `local:N` Dask workers of this machine.
+    """Engine on the cluster at an address, or on `local:N` Dask workers of this machine.
 
-    A Dask worker that is killed costs its meshes a second try elsewhere; only a mesh that ends several of them is given
-    up. Workers must see the folder of the outputs, and have this very version of curvcli.
+    If a Dask worker is killed, its meshes are tried again elsewhere; only a mesh that ends several of them is given up.
+    Workers must see the folder of the outputs, and have the same version of curvcli.
     Errors: MissingExtraError without Dask, UsageError for an address where no scheduler or no worker answers, and for
     workers with another version.
     """
@@ -46,7 +46,7 @@ def connect(scheduler: str, limits: Limits) -> Iterator[Engine]:
     from distributed import Future, as_completed
 
     for name in ("distributed.client", "distributed.scheduler", "distributed.nanny", "distributed.core"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)  # a worker that dies is told in a row, or costs a retry
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # a dead worker is reported in a row, or retried
     with ExitStack() as stack:
         client = _client(stack, scheduler)
 
@@ -86,7 +86,7 @@ def _client(stack: ExitStack, scheduler: str) -> Any:
 
 
 def _check_versions(client: Any, scheduler: str) -> None:
-    """Refuse workers that would compute with something else than we do."""
+    """Refuse workers with another version of curvcli."""
     found = client.run(_version, on_error="return")
     others = {str(version) for version in found.values()} - {__version__}
     if others:
@@ -115,7 +115,7 @@ def _row(future: Any, item: Item, limits: Limits, scheduler: str) -> Row:
     except KilledWorker:
         return lost(item.path, -9, limits, late=False)
     except (CancelledError, OSError) as error:
-        raise SchedulerLostError(f"--scheduler {scheduler}: is gone ({error}); --resume goes on") from error
+        raise SchedulerLostError(f"--scheduler {scheduler}: lost ({error}); --resume continues") from error
     return row
 
 
@@ -123,7 +123,7 @@ _mine = threading.local()
 
 
 def in_worker(item: Item, settings: Settings, limits: Limits) -> Row:
-    """One mesh on a Dask worker, in a process beside it, so that limits hold and a crash hits nobody else.
+    """Run one mesh on a Dask worker, in a separate process, so that limits hold and a crash affects no other mesh.
 
     Each thread of the Dask worker keeps its process for the next mesh; the process ends when the Dask worker does.
     """

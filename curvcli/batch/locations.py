@@ -1,4 +1,4 @@
-"""Where meshes are: local paths, which need nothing more, and URLs, which fsspec lists and reads."""
+"""Locations of meshes: local paths, and URLs that fsspec lists and reads."""
 
 from __future__ import annotations
 
@@ -21,25 +21,25 @@ _NOT_FOUND = 404
 
 
 def is_url(place: str) -> bool:
-    """Whether fsspec must read it."""
+    """True if fsspec must read it."""
     return bool(_SCHEME.match(place))
 
 
 def absolute(path: str) -> str:
-    """The path from the root on.
+    """Absolute path.
 
-    Errors: InputError for a relative one where the working folder has been removed.
+    Errors: InputError for a relative path if the working folder has been removed.
     """
     try:
         return os.path.abspath(path)
     except OSError as error:
         raise InputError(
-            f"the working folder is gone ({error.strerror})", path=escape_text(path), hint="name the whole path"
+            f"the working folder was removed ({error.strerror})", path=escape_text(path), hint="name the whole path"
         ) from None
 
 
 def local(place: str) -> str:
-    """A `file://` or `local://` URL as the path it stands for; everything else as it is."""
+    """Path of a `file://` or `local://` URL; other text is unchanged."""
     if not place.lower().startswith(("file://", "local://")):
         return place
     from urllib.request import url2pathname
@@ -48,7 +48,7 @@ def local(place: str) -> str:
 
 
 def root_of(pattern: str) -> tuple[str, ...]:
-    """The folder down to the first wildcard, as parts; outputs mirror the tree below it."""
+    """Folder down to the first wildcard, as parts; outputs mirror the tree below it."""
     parts = parts_of(pattern)[:-1]
     if os.path.lexists(pattern):
         return parts
@@ -56,7 +56,7 @@ def root_of(pattern: str) -> tuple[str, ...]:
 
 
 def parts_of(place: str) -> tuple[str, ...]:
-    """The parts of an absolute path or URL, each fit to name a folder."""
+    """Parts of an absolute path or URL, each usable as the name of a folder."""
     if is_url(place):
         url = urlsplit(place)
         parts = (url.scheme, url.netloc, *unquote(url.path).split("/"))
@@ -66,10 +66,10 @@ def parts_of(place: str) -> tuple[str, ...]:
 
 
 def expand(pattern: str) -> list[str]:
-    """The files that a pattern names, sorted: one that exists by that very name, or all that match.
+    """Files that match a pattern, sorted: one of exactly that name, or all that match.
 
-    Errors: NoMatchError when there is none; InputError for a URL that cannot be listed, UsageError for one of an
-    unknown kind, MissingExtraError without the package that knows it.
+    Errors: NoMatchError without a match; InputError for a URL that cannot be listed, UsageError for an unknown kind of
+    URL, MissingExtraError without the package that reads it.
     """
     found = _expand_url(pattern) if is_url(pattern) else _expand_path(pattern)
     if not found:
@@ -89,7 +89,7 @@ def _expand_url(pattern: str) -> list[str]:
         return [pattern]
     files, path = _file_system(pattern)
     try:
-        # Listings over HTTP have no types: what ends in a slash is a folder.
+        # Listings over HTTP have no types: a name that ends in a slash is a folder.
         folder, slash, last = path.rpartition("/")
         paths = [f"{folder}{slash}{spelling}" for spelling in spellings(last)]
         names = {str(name) for spelt in paths for name in files.glob(spelt)}
@@ -104,9 +104,9 @@ def _is_file(files: Any, name: str) -> bool:
 
 
 def read_url(place: str, max_bytes: int | None) -> bytes:
-    """The bytes behind a URL.
+    """Bytes behind a URL.
 
-    Errors: InputError for what cannot be read, MissingExtraError without the package that reads it.
+    Errors: InputError for a URL that cannot be read, MissingExtraError without the package that reads it.
     """
     files, path = _file_system(place)
     try:
@@ -115,7 +115,7 @@ def read_url(place: str, max_bytes: int | None) -> bytes:
     except InputError:
         raise
     except Exception as error:
-        # fsspec says that there is no such file when a server does not answer, too; the cause tells them apart.
+        # fsspec raises FileNotFoundError for a silent server too; the cause distinguishes them.
         if isinstance(error, FileNotFoundError):
             cause = error.__cause__
             if cause is None or isinstance(cause, FileNotFoundError) or getattr(cause, "status", None) == _NOT_FOUND:
@@ -144,7 +144,7 @@ def _told(error: BaseException) -> str:
 
 
 def listed(source: str) -> list[str]:
-    """The names in a list, one a line or, as `find -print0` writes them, each ended by a zero byte; `-` is stdin.
+    """Names in a list, one per line or, as from `find -print0`, ended by zero bytes; `-` is stdin.
 
     Errors: InputError for a list that cannot be read.
     """
@@ -162,7 +162,7 @@ def listed(source: str) -> list[str]:
 
 
 def length_of(path: str) -> int | None:
-    """The bytes of a regular file, None where there is none."""
+    """Length of a regular file in bytes, None without one."""
     try:
         status = os.stat(path)
     except (OSError, ValueError):
@@ -171,7 +171,7 @@ def length_of(path: str) -> int | None:
 
 
 def hash_of(path: str) -> str | None:
-    """The SHA-256 of a regular file, None where there is none that can be read."""
+    """SHA-256 of a regular file, None without a readable one."""
     try:
         with open_regular(path, None) as file:
             return hashlib.file_digest(cast("io.BufferedReader", file), "sha256").hexdigest()

@@ -1,4 +1,4 @@
-"""The manifest: one line of JSON per mesh, on the disk as soon as the mesh ends, whatever happens to us afterwards."""
+"""Manifest: one line of JSON per mesh, on the disk as soon as the mesh ends."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .model import Row
 class Manifest:
     """The manifest of a folder, open for one batch: `rows` of earlier runs by path, `append`, and what was `added`.
 
-    resume: keep what is there and take up a line that was torn off by the end of an earlier run. Without it and without
-    `force` the folder must be empty or not there yet.
-    Errors: OutputError for a folder that holds something else, that cannot be written, or that another batch uses.
+    resume: keep the rows and overwrite a line torn off by the end of an earlier run. Without it and without
+    `force` the folder must be empty or new.
+    Errors: OutputError for a folder with other files, that cannot be written, or that another batch uses.
     """
 
     def __init__(self, folder: str, *, resume: bool = False, force: bool = False):
@@ -50,8 +50,8 @@ class Manifest:
         self._stream.close()
 
     def append(self, row: Row) -> None:
-        """Write a row through to the disk."""
-        # One write, so that a line is there or torn, never mixed; a full disk may take a part of it.
+        """Write a row to the disk."""
+        # One write, so that a line is whole or torn, never mixed; on a full disk a part of it may be written.
         rest = memoryview(msgspec.json.encode(row) + b"\n")
         with _explained(self.path):
             while rest:
@@ -59,17 +59,17 @@ class Manifest:
             os.fsync(self._stream.fileno())
 
     def added(self) -> dict[str, Row]:
-        """The rows that this batch has written, as they stand on the disk: what an interruption cannot falsify."""
+        """Rows of this batch as they are on the disk, unaffected by an interruption."""
         return self._read(self._begin)[1]
 
     def _read(self, begin: int) -> tuple[int, dict[str, Row]]:
-        """The end of the last whole line, and the rows from here to there; the last of each mesh stands."""
+        """End of the last whole line, and the rows from here to there; the last row of each mesh counts."""
         self._stream.seek(begin)
         content = self._stream.read()
         end = content.rfind(b"\n") + 1
         rows = {}
         for line in content[:end].splitlines():
-            # A line that a failing disk damaged tells nothing of its mesh, which is then done again.
+            # A line damaged by a failing disk is skipped, and its mesh is done again.
             with contextlib.suppress(msgspec.MsgspecError, UnicodeDecodeError):
                 row = msgspec.json.decode(line, type=Row)
                 rows[row.path] = row
@@ -90,7 +90,7 @@ def _check(folder: str, resume: bool, force: bool) -> None:
     if resume and there and NAME not in there and not force:
         raise OutputError(f"{escape_text(folder)}: is not empty and has no {NAME} to resume; choose another folder")
     if there and not resume and not force:
-        raise OutputError(f"{escape_text(folder)}: is not empty; --resume goes on there, --force begins anew")
+        raise OutputError(f"{escape_text(folder)}: is not empty; --resume continues there, --force starts again")
 
 
 @contextlib.contextmanager

@@ -1,6 +1,6 @@
-"""What a batch and its workers say to each other: one line of JSON per message, checked against its type on arrival.
+"""Messages between a batch and its workers: one line of JSON each, checked against its type on arrival.
 
-Data only: nothing that a message holds can name code, as a pickle can.
+Messages are data only: unlike a pickle they cannot name code.
 """
 
 from __future__ import annotations
@@ -14,20 +14,20 @@ from .model import Item, Row, Settings
 
 
 class Task(msgspec.Struct, frozen=True):
-    """A mesh for a worker, and how to do it."""
+    """Mesh for a worker, with its settings."""
 
     item: Item
     settings: Settings
 
 
 class Ready(msgspec.Struct, frozen=True):
-    """A worker can begin."""
+    """Sign that a worker is ready."""
 
     version: str
 
 
 class Done(msgspec.Struct, frozen=True):
-    """What became of a mesh; spent: the process should not be given another."""
+    """Row of a finished mesh; spent: true if the process should get no other mesh."""
 
     row: Row
     spent: bool
@@ -36,11 +36,11 @@ class Done(msgspec.Struct, frozen=True):
 Message = TypeVar("Message", bound=msgspec.Struct)
 
 NO_MESSAGE = (EOFError, OSError, ValueError, msgspec.MsgspecError)
-"""What `receive` raises where the other side has died, or says something else."""
+"""Errors of `receive` if the other side has died or sends another message."""
 
 
 def send(stream: BinaryIO, message: msgspec.Struct) -> None:
-    """Hand a message over.
+    """Send a message.
 
     File names that are not UTF-8 hold lone surrogates, which JSON can escape and UTF-8 cannot write.
     """
@@ -49,9 +49,9 @@ def send(stream: BinaryIO, message: msgspec.Struct) -> None:
 
 
 def receive(stream: BinaryIO, kind: type[Message]) -> Message:
-    """The next message.
+    """Receive the next message.
 
-    Errors: EOFError where there is none or only a part of one, ValueError or msgspec.ValidationError for another kind.
+    Errors: EOFError without a whole message, ValueError or msgspec.ValidationError for another kind.
     """
     line = stream.readline()
     if not line.endswith(b"\n"):

@@ -1,4 +1,4 @@
-"""What passes between the parts of a batch: a mesh to do, how to do it, and the row of what became of it."""
+"""Data of a batch: an item (one mesh), the settings of its analysis, and the row of its result."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .._version import __version__
 from ..analysis.configuration import Configuration
 from ..output.appearance import Appearance
 
-# What the batch itself writes into its folder.
+# Files that the batch itself writes into its folder.
 MANIFEST, CSV, PARQUET = OWN = ("manifest.jsonl", "summary.csv", "summary.parquet")
 
 Status = Literal["ok", "failed_checks", "error", "timeout", "out_of_memory", "crashed"]
@@ -22,8 +22,8 @@ Status = Literal["ok", "failed_checks", "error", "timeout", "out_of_memory", "cr
 class Item(msgspec.Struct, frozen=True):
     """One mesh of the plan.
 
-    path: as the user named it, fit for one line. place: an absolute path or a URL. outputs: pairs of a table's kind
-    (empty for what `analyze -o` writes) and an absolute path. content: bytes that no other process can read.
+    path: as given, fit for one line. place: an absolute path or a URL. outputs: pairs of a table's kind
+    (empty for outputs of `analyze -o`) and an absolute path. content: bytes that no other process can read.
     """
 
     path: str
@@ -33,10 +33,10 @@ class Item(msgspec.Struct, frozen=True):
 
 
 class Settings(msgspec.Struct, frozen=True, kw_only=True):
-    """Everything that decides what is computed and written of each mesh, but for the mesh.
+    """Settings that determine the results and outputs of each mesh.
 
     command: as typed; pages show it, and nothing else depends on it. configuration: the file that set some of this,
-    as reports name it.
+    as named in reports.
     """
 
     passes: tuple[str, ...]
@@ -59,7 +59,7 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
     configuration: Configuration | None = None
 
     def digest(self) -> str:
-        """The hash by which a later run knows that it was asked for the same; plug-ins count with their versions."""
+        """Hash that tells a later run if the settings are the same; plug-ins count with their versions."""
         from importlib.metadata import entry_points
 
         plug_ins = [(one.name, one.dist and one.dist.version) for one in entry_points(group="curvcli.passes")]
@@ -68,14 +68,14 @@ class Settings(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Limits(msgspec.Struct, frozen=True):
-    """What one mesh may cost: seconds, and bytes beyond what the program itself takes."""
+    """Limits for one mesh: seconds, and bytes beyond the program's own memory."""
 
     seconds: float | None = None
     memory: int | None = None
 
 
 class Written(msgspec.Struct, frozen=True):
-    """An output as it was when it was complete: its path below the folder of the batch, its length, its SHA-256."""
+    """Completed output: its path below the folder of the batch, its length, its SHA-256."""
 
     path: str
     bytes: int
@@ -83,7 +83,7 @@ class Written(msgspec.Struct, frozen=True):
 
 
 class Row(msgspec.Struct, kw_only=True):
-    """One line of the manifest: what became of one mesh. The summary holds none of what differs from run to run."""
+    """One line of the manifest: the result of one mesh. The summary leaves out values that differ from run to run."""
 
     path: str
     sha256: str | None = None
@@ -101,4 +101,4 @@ class Row(msgspec.Struct, kw_only=True):
 
 
 Engine = Callable[[Sequence[Item], Settings], Iterator[Row]]
-"""Does the items and gives their rows as they end."""
+"""Function that runs items and yields their rows as they end."""

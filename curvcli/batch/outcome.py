@@ -1,4 +1,4 @@
-"""How a mesh ends: the status, the exit code and the one line that its row shows."""
+"""Outcome of a mesh: the status, the exit code and the one line in its row."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from .model import Limits, Row, Status
 
 
 def explained(path: str, error: BaseException, limits: Limits) -> Row:
-    """The row of a mesh whose analysis raised an error; a limit that the user set is the mesh's fault, not ours."""
+    """Row of a mesh whose analysis raised an error; a limit set by the user is an error of the mesh, not of curvcli."""
     if is_out_of_memory(error):
         allowed = limits.memory is not None
         text = (
             f"{path}: needs more memory than --max-memory allows; raise the limit"
             if allowed
-            else f"{path}: out of memory; a machine with more memory, or fewer jobs at once (-j), is needed"
+            else f"{path}: out of memory; use a machine with more memory or fewer jobs at once (-j)"
         )
         return Row(path=path, status="out_of_memory", exit_code=INPUT if allowed else INTERNAL, error=text)
     match error:
@@ -33,14 +33,14 @@ def explained(path: str, error: BaseException, limits: Limits) -> Row:
 
 
 def lost(path: str, returncode: int, limits: Limits, *, late: bool) -> Row:
-    """The row of a mesh whose worker was stopped for taking too long, or died."""
+    """Row of a mesh whose worker was stopped for taking too long, or died."""
     status: Status
     if late:
         status, code = "timeout", INPUT
         text = f"takes longer than the {limits.seconds:g} s allowed; --timeout sets the limit"
     elif returncode < 0:
         status, code = "crashed", INTERNAL
-        hint = "; out of memory? fewer jobs at once (-j) need less" if -returncode == _KILL else ""
+        hint = "; out of memory? try fewer jobs at once (-j)" if -returncode == _KILL else ""
         text = f"the worker was ended by {_signal(-returncode)}{hint}"
     else:
         status, code = "crashed", INTERNAL

@@ -1,4 +1,4 @@
-"""The plan: which meshes in which order, and where the outputs of each go."""
+"""Plan: the meshes in order, and the paths of the outputs of each."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from .locations import absolute, expand, is_url, listed, local, parts_of, read_u
 from .model import OWN, Item
 from .walk import real_path
 
-# Lives in the memory of one process: its content is handed to the others.
+# Data in the memory of one process: the content is sent to the others.
 _OF_ONE_PROCESS = "memory://"
 
 
 def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Sequence[str]) -> list[Item]:
-    """Every mesh once, patterns in the order given and the files of each sorted, then the list's in its order.
+    """Every mesh once: patterns in the order given with the files of each sorted, then the list in its order.
 
-    A mesh that links give several names is taken by the first of them.
+    A mesh with several names by links is taken by the first of them.
     The outputs of `scans/a/b.ply` by the pattern `scans/**/*.ply` are `a/b.ply.csv` and so on below `folder`: the tree
-    below the deepest folder that all patterns share, and the whole name of the mesh, so that a.obj and a.ply never
-    meet, nor the batch's own files. What lies in `folder` is an output and matches no wildcard.
+    below the deepest folder that all patterns share, and the whole name of the mesh, so that the outputs of a.obj, of
+    a.ply and of the batch itself never collide. A file in `folder` is an output and matches no wildcard.
     Errors: NoMatchError for a pattern that no file matches, InputError for a list that cannot be read.
     """
     named: list[tuple[str, str]] = []
@@ -69,9 +69,9 @@ def outputs(stem: str, save: Iterable[str]) -> tuple[tuple[str, str], ...]:
 
 
 def saves(options: Iterable[str]) -> tuple[str, ...]:
-    """What `--save csv,json` and `--save edges.csv` ask for: suffixes, and a table's kind before one.
+    """Parse `--save csv,json` and `--save edges.csv`: suffixes, with an optional kind of table before one.
 
-    Errors: UsageError for a suffix or a kind that is not promised.
+    Errors: UsageError for an unknown suffix or kind.
     """
     found: dict[str, None] = {}
     for one in (part.strip().lower().lstrip(".") for option in options for part in option.split(",")):
@@ -90,13 +90,13 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
 
 
 def _split(save: str) -> tuple[str, str]:
-    """The kind of table and the suffix of `edges.csv`; no kind before a suffix, be it one of two parts, as hist.png."""
+    """Kind of table and suffix of `edges.csv`; no kind for a suffix alone, also one of two parts, as hist.png."""
     kind, _, suffix = ("", "", save) if f".{save}" in FORMATS else save.rpartition(".")
     return kind, suffix
 
 
 def _shared(roots: Sequence[tuple[str, ...]]) -> int:
-    """How many parts all roots begin with."""
+    """Number of parts that all roots begin with."""
     return next((k for k, parts in enumerate(zip(*roots, strict=False)) if len(set(parts)) > 1), min(map(len, roots)))
 
 
@@ -105,15 +105,15 @@ def _place(name: str) -> str:
 
 
 def _is_output(name: str, within: tuple[str, ...], of_folder: dict[str, str]) -> bool:
-    """Whether a file lies in the folder of the batch, be it behind a link."""
+    """True if a file lies in the folder of the batch, also behind a link."""
     place = _place(name)
     return place.startswith(within) or (not is_url(place) and real_path(place, of_folder).startswith(within))
 
 
 class _Free:
-    """Where outputs go below a folder so that none meets another, the batch's own files, or a folder of one.
+    """Allocator of output paths below a folder: none collides with another or with the batch's own files.
 
-    A part that is taken is numbered. Names that differ in case only are one name, as on disks that ignore it.
+    A name that is taken gets a number. Names that differ in case only are one name, as on disks that ignore case.
     """
 
     def __init__(self, folder: str, save: Sequence[str]):
@@ -122,7 +122,7 @@ class _Free:
         self._folders = {folded(os.path.normpath(folder))}
 
     def stem(self, parts: Sequence[str]) -> str:
-        """What the outputs of one mesh are called, up to their suffixes; they are taken from now on."""
+        """Reserve and return the name of the outputs of one mesh without suffixes."""
         folder = self._folder
         for part in parts[:-1]:
             folder = next(path for path in _numbered(os.path.join(folder, part)) if folded(path) not in self._files)
@@ -136,6 +136,6 @@ class _Free:
 
 
 def _numbered(path: str) -> Iterator[str]:
-    """A path, and what it is called where it is taken."""
+    """The path, then its numbered variants."""
     yield path
     yield from (f"{path}~{number}" for number in count(2))

@@ -1,4 +1,4 @@
-"""The engine of one machine: workers that are processes, reused, each with one mesh at a time."""
+"""Engine of one machine: reused worker processes, each with one mesh at a time."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from .messages import NO_MESSAGE, Done, Ready, Task, receive, send
 from .model import Engine, Item, Limits, Row, Settings
 from .outcome import lost
 
-# One thread each: there are as many workers as processors are meant to be used.
+# One thread per worker: there are as many workers as processors to use.
 _POOLS = ("POLARS_MAX", "OMP_NUM", "OPENBLAS_NUM", "MKL_NUM", "NUMEXPR_NUM", "VECLIB_MAXIMUM", "RAYON_NUM")
 ONE_THREAD = {f"{pool}_THREADS": "1" for pool in _POOLS}
 _STARTS = 3
 
 
 class Worker:
-    """A process that does one mesh after the other, and is replaced when it dies or is stopped for being late."""
+    """Process that runs one mesh after the other; it is replaced when it dies or is stopped by the timeout."""
 
     def __init__(self, limits: Limits):
         self._limits = limits
@@ -34,16 +34,16 @@ class Worker:
         self._lock = threading.Lock()
 
     def begin(self) -> None:
-        """Start the process, and let it become ready while there is something else to do."""
+        """Start the process without waiting until it is ready."""
         with self._lock:
             if not self._stopped:
                 self._process = _start()
         if self._process is not None:
-            with suppress(OSError):  # it has died already, which its answer will tell
+            with suppress(OSError):  # it has died already, and reading its answer will fail
                 send(self._process.stdin, self._limits)  # type: ignore[arg-type]
 
     def run(self, item: Item, settings: Settings) -> Row:
-        """The row of one mesh, whatever it does to the process."""
+        """Run one mesh and return its row, even if the process dies."""
         process = self._ready()
         self._late = False
         timer = threading.Timer(self._limits.seconds or 0, self._too_late)
@@ -64,14 +64,14 @@ class Worker:
         return done.row
 
     def stop(self) -> None:
-        """Kill the process for good; a thread that waits for its answer learns that it died."""
+        """Kill the process for good; a thread that waits for its answer gets the error."""
         with self._lock:
             self._stopped = True
             if self._process is not None:
                 self._process.kill()
 
     def end(self) -> None:
-        """Kill the process and let go of what it held; for the thread that talks with it."""
+        """Kill the process and free its resources; to be called by the thread that uses it."""
         if self._process is not None:
             self._process.kill()
             self._process.wait()
@@ -86,7 +86,7 @@ class Worker:
             self._process.kill()
 
     def _ready(self) -> subprocess.Popen[bytes]:
-        """A process that has said that it is ready; starting does not count as time of a mesh."""
+        """Process that has sent `Ready`; starting does not count as time of a mesh."""
         if self._process is not None and self._is_ready and self._process.poll() is None:
             return self._process
         if self._is_ready:
@@ -109,7 +109,7 @@ class Worker:
 
 
 def _start() -> subprocess.Popen[bytes]:
-    # With the very path of this process, so that a worker imports what we imported and nothing from its folder.
+    # With the sys.path of this process, so that a worker imports the same modules and none from its folder.
     program = f"import sys; sys.path[:] = {sys.path!r}; from curvcli.batch.worker import main; main()"
     return subprocess.Popen(
         [sys.executable, "-c", program],
@@ -122,9 +122,9 @@ def _start() -> subprocess.Popen[bytes]:
 
 @contextmanager
 def here(limits: Limits, jobs: int, soon: int = 0) -> Iterator[Engine]:
-    """The engine that works on this machine with so many workers; leaving ends every one.
+    """Engine on this machine with so many workers; leaving the block ends all of them.
 
-    soon: how many meshes are sure to come: workers for them start at once.
+    soon: number of meshes that are certain: their workers start at once.
     """
     workers: list[Worker] = []
     idle: SimpleQueue[Worker] = SimpleQueue()

@@ -1,4 +1,4 @@
-"""One mesh: read, compute, check, write; and the row that tells of it. Every engine comes here."""
+"""One mesh: read, compute, check, write; and its row. Every engine calls `run`."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _WORST = ("fail", "pass", "not_applicable")
 
 
 def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
-    """Analyse one mesh and write its outputs whole or not at all: its row, and whether memory ran out."""
+    """Analyse one mesh and write its outputs whole or not at all; return its row, and whether memory ran out."""
     start = time.perf_counter()
     trim_heap()  # of the mesh before
     _forget_peak()
@@ -47,7 +47,7 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
         _write(analysis, item, settings)
         row.outputs = _written(item)
     except Exception as error:
-        # The error itself is not kept: its traceback refers to the analysis.
+        # The error is not kept: its traceback refers to the analysis.
         spent = is_out_of_memory(error)
         row = explained(item.path, error, limits)
         row.sha256 = _hash(item)
@@ -77,7 +77,7 @@ def _analysed(item: Item, settings: Settings) -> Result:
 
 
 def _surface(item: Item, settings: Settings) -> Surface:
-    """The surface of a file or of what a URL leads to; messages name it as the user did."""
+    """Surface of a file or a URL; messages use the name given."""
     asked: dict[str, Any] = {key: getattr(settings, key) for key in ("weld", "normals", "max_faces", "max_bytes")}
     wanted = settings.input_format
     try:
@@ -97,16 +97,16 @@ def _write(analysis: Result, item: Item, settings: Settings) -> None:
     tables = [(kind, path) for kind, path in item.outputs if kind]
     for folder in {os.path.dirname(path) for _, path in item.outputs}:
         _make(folder)
-    # The folder is the batch's own and was checked at the start: what stands there is of an earlier run.
+    # The folder belongs to the batch and was checked at the start: existing files are of an earlier run.
     with Outputs([path for _, path in item.outputs], force=True, durable=True) as outputs:
         notices, _ = write_into(outputs, analysis, paths, settings.appearance, tables=tables, command=settings.command)
         analysis.extra_notices += notices
 
 
 def _written(item: Item) -> list[Written]:
-    """What the outputs are, as a later run finds them if nobody changes them.
+    """Lengths and hashes of the outputs, by which a later run recognises them.
 
-    Errors: OutputError for one that somebody has taken away already.
+    Errors: OutputError for one that was removed already.
     """
     found = []
     for _, path in item.outputs:
@@ -143,7 +143,7 @@ def _row(item: Item, analysis: Result) -> Row:
 
 
 def _hash(item: Item) -> str | None:
-    """The hash of a file that could not be analysed, None where it cannot be read either."""
+    """Hash of a file that could not be analysed, None if it cannot be read."""
     if item.content is not None:
         return hashlib.sha256(item.content).hexdigest()
     return None if is_url(item.place) else hash_of(item.place)
@@ -157,13 +157,13 @@ def _timed(timings: dict[str, float], name: str) -> Iterator[None]:
 
 
 def _forget_peak() -> None:
-    """Let the system measure the peak of this mesh, not of all before it; only Linux can."""
+    """Reset the system's peak of memory, so that it is that of this mesh; Linux only."""
     with contextlib.suppress(OSError), open("/proc/self/clear_refs", "w", encoding="ascii") as stream:
         stream.write("5")
 
 
 def _peak() -> int | None:
-    """Bytes that the process held at most; None where the system does not tell."""
+    """Peak memory of the process in bytes; None if the system does not provide it."""
     with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as stream:
         for line in stream:
             if line.startswith("VmHWM:"):

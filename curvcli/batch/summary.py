@@ -1,4 +1,4 @@
-"""The summary: one row per mesh, in the order of the plan, with nothing that differs between equal runs."""
+"""Summary: one row per mesh, in the order of the plan, without values that differ between equal runs."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def write_summary(folder: str, rows: Sequence[Row]) -> None:
 
 
 def frame(rows: Sequence[Row]) -> pl.DataFrame:
-    """The rows as a table; what a mesh has not, or has undefined, is null."""
+    """Rows as a table; missing and undefined values are null."""
     columns: dict[str, pl.Series] = {
         name: pl.Series(name, [getattr(row, name) for row in rows], dtype)
         for name, dtype in (("path", pl.String), ("status", pl.String), ("exit_code", pl.Int64), ("error", pl.String))
@@ -55,7 +55,7 @@ def frame(rows: Sequence[Row]) -> pl.DataFrame:
 
 
 def _totals(row: Row) -> dict[str, Any]:
-    """The totals, vectors by their components."""
+    """Totals, vectors by their components."""
     found: dict[str, Any] = {}
     for name, value in row.totals.items():
         if isinstance(value, list):

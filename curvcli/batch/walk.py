@@ -1,4 +1,4 @@
-"""The files that a pattern with wildcards names: each folder is visited and each file named once, whatever links do."""
+"""Files that match a pattern with wildcards: each folder is visited once and each file named once, despite links."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _ALL = "**"
 
 
 class _Visit(NamedTuple):
-    """A folder to be matched against the parts of the pattern from `part` on, and how many links lead there."""
+    """Folder to match against the parts of the pattern from `part` on, and the number of links on the way."""
 
     folder: str
     part: int
@@ -25,16 +25,16 @@ class _Visit(NamedTuple):
 
 
 def is_wild(part: str) -> bool:
-    """Whether a part of a path is a pattern."""
+    """True if a part of a path is a pattern."""
     return bool(_WILD.search(part))
 
 
 def files_of(pattern: str) -> list[str]:
-    """The files, sorted by their names; `*` and `?` match no leading dot, `**` matches any number of folders, and
+    """Files, sorted by their names; `*` and `?` match no leading dot, `**` matches any number of folders, and
     suffixes of meshes match in any case and packed too (`spellings`).
 
     A folder that several links lead to, or a link to a folder above itself, is visited once, and a file with several
-    names is named once: by a name without links where there is one, else by the first. So the work is proportional to
+    names is named once: by a name without links if there is one, else by the first. So the work is proportional to
     the folders times the parts of the pattern. Folders that cannot be listed are left out.
     """
     drive, rest = os.path.splitdrive(pattern)
@@ -51,7 +51,7 @@ def files_of(pattern: str) -> list[str]:
 
 
 def real_path(path: str, of_folder: dict[str, str]) -> str:
-    """The path without links; those of folders are kept, for many files lie in one."""
+    """Path without links; those of folders are cached, for many files lie in one."""
     if os.path.islink(path):
         return os.path.realpath(path)
     folder, name = os.path.split(path)
@@ -61,7 +61,7 @@ def real_path(path: str, of_folder: dict[str, str]) -> str:
 
 
 def _matches(root: str, parts: list[str]) -> Iterator[tuple[str, int]]:
-    """Every file that matches, and how many links lead to it: folders are visited by the fewest."""
+    """Every file that matches, and the number of links on the way; folders are visited by the fewest."""
     seen: set[tuple[int, int, int]] = set()
     todo = deque([_Visit(root, 0, 0)])
     tests = [_test([part]) for part in parts[:-1]] + [_test(spellings(parts[-1]))]
@@ -99,7 +99,7 @@ def _matches(root: str, parts: list[str]) -> Iterator[tuple[str, int]]:
 
 
 def _later(todo: deque[_Visit], visit: _Visit, path: str, part: int, is_link: bool) -> None:
-    """Visit a folder that is found in another one: before all that lie behind one link more."""
+    """Queue a folder found in another one: before all that lie behind one link more."""
     found = _Visit(path, part, visit.links + is_link)
     if is_link:
         todo.append(found)
@@ -108,9 +108,9 @@ def _later(todo: deque[_Visit], visit: _Visit, path: str, part: int, is_link: bo
 
 
 def spellings(part: str) -> list[str]:
-    """The patterns for a part that ends with the suffix of a mesh, in any case and packed too; else the part itself.
+    """Patterns for a part that ends with the suffix of a mesh, in any case and packed too; else the part itself.
 
-    `*.ply` names `A.PLY` and `b.ply.gz`, `*.ply.gz` only what is packed.
+    `*.ply` matches `A.PLY` and `b.ply.gz`, `*.ply.gz` only packed files.
     """
     packed = part[-len(_PACKED) :] if part.lower().endswith(_PACKED) else ""
     stem, dot, suffix = part.removesuffix(packed).rpartition(".")
@@ -126,14 +126,14 @@ def _any_case(letters: str) -> str:
 
 
 def _test(patterns: list[str]) -> Callable[[str], bool]:
-    """Whether a name fits one of these patterns for a part."""
+    """Function that is true for names that match one of these patterns for a part."""
     fits = re.compile("|".join(fnmatch.translate(os.path.normcase(one)) for one in patterns)).match
     hidden = patterns[0].startswith(".")
     return lambda name: (hidden or not name.startswith(".")) and fits(os.path.normcase(name)) is not None
 
 
 def _listed(folder: str) -> list[tuple[str, bool, bool]]:
-    """Name, whether it is a folder, and whether it is a link, of everything in a folder, in the order of the names."""
+    """Entries of a folder in the order of their names, each with whether it is a folder and whether it is a link."""
     found = []
     try:
         with os.scandir(folder) as entries:

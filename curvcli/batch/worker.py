@@ -1,4 +1,4 @@
-"""A worker: a process of its own that takes one mesh after the other from stdin and answers with rows on stdout."""
+"""Worker: a process that takes one mesh after the other from stdin and sends rows on stdout."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from .model import Limits
 
 
 def main() -> None:
-    """Work until stdin ends, which it does with the parent, however that ended; then end at once, work or not."""
+    """Work until stdin ends, which is when the parent ends; then exit at once, even during work."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the parent decides
     tasks = sys.stdin.buffer
-    # Whatever a library prints must not come between the rows.
+    # Output of libraries must not come between the rows.
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     warnings.simplefilter("ignore")
@@ -32,7 +32,7 @@ def main() -> None:
     from ..support.memory import limit_address_space
     from .run import run
 
-    # Here, so that the first mesh is not charged with it.
+    # Here, so that this time does not count for the first mesh.
     load_passes()
     import_libraries()
     if limits.memory is not None:
@@ -41,13 +41,13 @@ def main() -> None:
     _answer(answers, Ready(__version__))
     while True:
         task = todo.get()
-        # Memory in pieces serves nobody: the next mesh gets a fresh process.
+        # After an out-of-memory error the heap is fragmented: the next mesh gets a new process.
         row, spent = run(task.item, task.settings, limits)
         _answer(answers, Done(row, spent))
 
 
 def _listen(tasks: BinaryIO, todo: SimpleQueue[Task]) -> None:
-    """Take tasks while the worker works, so that it does not outlive its parent, be it at work for ever."""
+    """Receive tasks while the worker works, so that it ends with its parent even during endless work."""
     while True:
         try:
             todo.put(receive(tasks, Task))
@@ -56,7 +56,7 @@ def _listen(tasks: BinaryIO, todo: SimpleQueue[Task]) -> None:
 
 
 def _answer(stream: BinaryIO, answer: Ready | Done) -> None:
-    """Hand an answer over; a parent that is gone wants none."""
+    """Send an answer; if the parent is gone, drop it."""
     try:
         send(stream, answer)
     except BrokenPipeError:

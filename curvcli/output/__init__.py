@@ -1,1 +1,1 @@
-"""Tables, meshes and colours on their way out: one file per format, chosen by suffix, whole or not at all."""
+"""Output files: tables, meshes, pictures and pages, chosen by suffix, written whole or not at all."""

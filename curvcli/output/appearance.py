@@ -1,4 +1,4 @@
-"""Appearance: how tables, coloured meshes and pictures look, and the column that colours them."""
+"""Appearance of tables, coloured meshes and pictures, and the column that colours them."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
     from .pictures.legend import Colored
 
 
-# What colours a mesh when nothing is asked for: the first of these that was computed.
+# Default columns that colour a mesh: the first of these that was computed.
 COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
 
 
 @dataclass(frozen=True)
 class Appearance:
-    """How tables, coloured meshes and pictures look.
+    """Options for the appearance of tables, coloured meshes and pictures.
 
-    color_by: the columns of a picture; the first of them colours a mesh. quality: whether `.ply` has that column once
-    more as `quality`, the name that MeshLab colours by.
+    color_by: the columns of a picture; the first of them colours a mesh. quality: true if `.ply` also has that column
+    as `quality`, the name that MeshLab colours by.
     """
 
     color_by: tuple[str, ...] = ()
@@ -43,17 +43,17 @@ DEFAULT = Appearance()
 
 
 def vertex_quantities(chosen: list[str]) -> dict[str, Quantity]:
-    """The vertex columns that were computed, each with its quantity."""
+    """Vertex columns that were computed, each with its quantity."""
     return {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
 
 
 def along_edges() -> dict[str, Quantity]:
-    """The numbers of edges, each with its quantity."""
+    """Numeric columns of edges, each with its quantity."""
     return {column: q for q in passes.quantities("edge") for column in q.columns if not q.vector}
 
 
 def colored_quantity(name: str, chosen: list[str]) -> Quantity:
-    """The quantity whose column colours the mesh, or its edges: these are computed with every table of edges."""
+    """Quantity whose column colours the mesh or its edges; edge columns are computed with every table of edges."""
     columns = vertex_quantities(chosen)
     along = along_edges()
     if name in along and name not in columns:
@@ -78,7 +78,7 @@ def color_needs(name: str, chosen: list[str]) -> set[str]:
 
 
 def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
-    """A column with the colours that it has in every output."""
+    """Column with its colours, the same in every output."""
     from .pictures.colors import categorize, colorize
     from .pictures.floor import edge_floor, floor
     from .pictures.legend import Colored
@@ -105,7 +105,7 @@ def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
 
 
 def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] | None:
-    """The column that colours the surface and its colours; None when no column was computed."""
+    """Column that colours the surface, and its colours; None when no column was computed."""
     name = coloring(appearance, analysis.chosen)
     return None if name is None else (name, colored(analysis, name, appearance).scale)
 
@@ -117,7 +117,7 @@ def coloring(appearance: Appearance, chosen: list[str]) -> str | None:
 
 
 def panels(appearance: Appearance, chosen: list[str], suffix: str) -> tuple[str, ...]:
-    """The columns that a picture shows: those asked for, else all numbers in histograms and one column elsewhere."""
+    """Columns that a picture shows: those asked for, else all numbers in histograms and one column elsewhere."""
     if appearance.color_by:
         return appearance.color_by
     if suffix == ".hist.png":

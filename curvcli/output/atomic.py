@@ -1,4 +1,4 @@
-"""Outputs that appear whole or not at all: checked before any work, written beside their place, renamed at the end."""
+"""Atomic outputs: checked before any work, written to temporaries, renamed at the end."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from ..support.sinks import Sink, binary_sink
 from ..support.words import escape_text
 from .destinations import STDOUT, Place, beside, probe, resolve, same_file, stream_number
 
-# What link() says where hard links are unknown or not allowed; everything else is a real failure.
+# Errors of link() where hard links are unknown or not allowed; every other error is a failure.
 _NO_HARD_LINKS = {errno.EPERM, errno.EACCES, errno.EOPNOTSUPP, errno.ENOTSUP, errno.ENOSYS, errno.EMLINK, errno.EXDEV}
 
 
 @dataclass
 class _Target:
-    """One output: the name given, the place it stands for, and its temporary while there is one."""
+    """One output: its name, the file behind it, and its temporary while there is one."""
 
     path: str
     place: Place
@@ -37,14 +37,14 @@ class Outputs:
     """All outputs of one run: `with Outputs(paths, force=False) as outputs, outputs.open(path) as stream: ...`.
 
     Entering checks every path before any work is done. Each regular file is written to a temporary in its own folder;
-    only when all are complete are they renamed, one after the other. Whatever goes wrong before, an interruption
-    included, removes the temporaries and leaves older files as they were. `-` is stdout; devices and FIFOs are written
-    directly, links are followed.
+    only when all are complete are they renamed, one after the other. An error or an interruption before that removes
+    the temporaries and leaves older files unchanged. `-` is stdout; devices and FIFOs are written directly, links are
+    followed.
 
-    What a killed program, an interruption or a full disk leaves is whole without more; with `durable`, contents are on
-    the disk before they get their names, so that what a record says of them holds after a power cut too.
+    Files left by a killed program, an interruption or a full disk are whole. With `durable`, contents are on the disk
+    before the files get their names, so that a record of them is right after a power cut too.
 
-    A pipe that its reader closes takes what comes and forgets it: the other outputs are written all the same.
+    Output to a pipe that its reader closed is discarded, and the other outputs are still written.
     Errors: OutputError for a path that exists (without `force`), cannot be written, or is named twice.
     """
 
@@ -52,7 +52,7 @@ class Outputs:
         self._paths = [os.fspath(path) for path in paths]
         self._force, self._durable = force, durable
         self._targets: dict[str, _Target] = {}
-        # A thread that was never waited for begins no file after the end.
+        # A thread that was never joined writes no file after the end.
         self._begin, self._ended = Lock(), False
 
     def __enter__(self) -> Outputs:
@@ -78,7 +78,7 @@ class Outputs:
 
     @contextlib.contextmanager
     def open(self, path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-        """The binary stream of one of the outputs; leaving the block without an error makes it complete."""
+        """Binary stream of one of the outputs; leaving the block without an error completes it."""
         target = self._targets[os.fspath(path)]
         if target.temporary is not None:
             raise ValueError(f"{target.path}: written already")
@@ -92,7 +92,7 @@ class Outputs:
         target.complete = True
 
     def commit(self) -> None:
-        """Give every complete output its name; a file that appeared meanwhile is replaced only with `force`."""
+        """Rename every complete output to its name; a file that appeared meanwhile is replaced only with `force`."""
         for target in self._targets.values():
             if target.complete and target.temporary is not None:
                 with _explained(target.path):
@@ -118,7 +118,7 @@ class Outputs:
         with self._begin:
             if self._ended:
                 raise InterruptedError("the outputs are closed")
-            # Noted before it is made, so that an interruption in between cannot leave it behind.
+            # Recorded before it is created, so that an interruption in between cannot leave it behind.
             target.temporary = beside(target.place.final)
             flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
             descriptor = os.open(target.temporary, flags, 0o666)
@@ -135,7 +135,7 @@ class Outputs:
             os.replace(temporary, target.place.final)
             return
         try:
-            # link() fails where rename() would silently replace what another program wrote meanwhile.
+            # link() fails where rename() would silently replace a file that another program wrote meanwhile.
             os.link(temporary, target.place.final)
         except FileExistsError:
             raise OutputError(
@@ -155,7 +155,7 @@ class Outputs:
 
 @contextlib.contextmanager
 def _explained(path: str) -> Iterator[None]:
-    """Turn the system's refusal into one line that names the output."""
+    """Turn an error of the system into one line that names the output."""
     try:
         yield
     except OSError as error:
@@ -170,12 +170,12 @@ def _write_stdout() -> Iterator[BinaryIO]:
         raise OutputError("stdout: is closed")
     stream = binary_sink(sys.stdout)
     yield stream
-    # Here, not at the end of the program, where a full disk could no longer be told.
+    # Flushed here, not at the end of the program, where a full disk could no longer be reported.
     stream.flush()
 
 
 def _write_directly(target: _Target) -> Iterator[BinaryIO]:
-    """To a device, a FIFO, or a stream that is open already."""
+    """Write to a device, a FIFO, or a stream that is open already."""
     number = stream_number(target.place.final)
     flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
     descriptor = os.open(target.place.final, flags, 0o666) if number is None else os.dup(number)

@@ -1,4 +1,4 @@
-"""Faces cut apart for pictures of creased meshes, so that the colour of a vertex stays in its own surroundings."""
+"""Cells of vertices for pictures of creased meshes: each keeps its colour to its own surroundings."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Colors = NDArray[np.uint8]
 
-# More faces are drawn whole: their cells would be smaller than a pixel.
+# Larger meshes are drawn without cells, which would be smaller than a pixel.
 MOST_FACES = 400_000
 
 
@@ -23,7 +23,7 @@ class Cells(NamedTuple):
 
 
 def own_cells(positions: Floats, faces: NDArray[np.int32], colors: Colors, between: tuple[int, int, int]) -> Cells:
-    """Every corner of a face in the colour of its vertex as far as half the shortest edge there; the rest in another.
+    """Corners of faces in the colour of their vertex, up to half the shortest edge there; the rest in another colour.
 
     A density of a creased mesh belongs to its edges and corners; between them the faces are flat, however large.
     """
@@ -38,7 +38,7 @@ def own_cells(positions: Floats, faces: NDArray[np.int32], colors: Colors, betwe
     with np.errstate(divide="ignore", invalid="ignore"):
         out = np.nan_to_num(np.minimum(reach / length, 0.5))[..., None]
         back = np.nan_to_num(np.minimum(reach[:, [1, 2, 0]] / length, 0.5))[..., None]
-    # Of each edge the points where the cell of its tail ends and that of its head begins.
+    # Points on each edge: the end of the cell of its tail and the beginning of that of its head.
     leave, enter = corner + out * (ahead - corner), ahead + back * (corner - ahead)
     tips = np.stack([corner, leave, enter[:, [2, 0, 1]]], axis=2)
     rim = np.stack([leave, enter], axis=2).reshape(-1, 6, 3)

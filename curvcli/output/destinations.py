@@ -1,4 +1,4 @@
-"""Where an output goes: what its name stands for, whether it can be written, and whether two names are one file."""
+"""Destinations of outputs: the file behind a name, its writability, and a test for two names of one file."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _STREAM_FOLDERS = ("/dev/fd/", "/proc/self/fd/")
 
 @dataclass(frozen=True)
 class Place:
-    """The file behind a name, and whether it is written directly: a stream, a device or a FIFO."""
+    """File behind a name, and whether it is written directly: a stream, a device or a FIFO."""
 
     final: str
     direct: bool
 
 
 def resolve(path: str) -> Place:
-    """Where an output of this name goes; OutputError where it cannot be a file."""
+    """Destination of an output of this name; OutputError if it cannot be a file."""
     if path == STDOUT:
         return Place("/dev/stdout", True)
     if not path or "\0" in path:
@@ -42,12 +42,12 @@ def resolve(path: str) -> Place:
         return Place(final, False)
     if stat.S_ISDIR(mode):
         raise OutputError(f"{escape_text(path)}: is a folder; give a file name in it")
-    # A device or FIFO by the name given: what a link to /dev/stdout leads to is often no name at all.
+    # A device or FIFO by the name given: the target of /dev/stdout is often no name at all.
     return Place(final, False) if stat.S_ISREG(mode) else Place(os.path.abspath(path), True)
 
 
 def stream_number(path: str) -> int | None:
-    """The descriptor behind /dev/stdout, /dev/fd/N and their like, which must not be replaced by a file."""
+    """Descriptor behind /dev/stdout, /dev/fd/N and the like, which must not be replaced by a file."""
     plain = os.path.normpath(path)
     for folder in _STREAM_FOLDERS:
         if plain.startswith(folder) and plain.removeprefix(folder).isdecimal():
@@ -56,14 +56,14 @@ def stream_number(path: str) -> int | None:
 
 
 def beside(final: str) -> str:
-    """A fresh hidden name in the same folder; short, so that a longest possible file name still has room for it."""
+    """New hidden name in the same folder; short, so that it fits beside a longest possible file name."""
     return os.path.join(os.path.dirname(final), f".curvcli-{secrets.token_hex(8)}.part")
 
 
 def probe(folder: str) -> bool:
-    """Make and remove a file: the one test of writability that holds for every user and file system.
+    """Create and remove a file: the one test of writability that holds for every user and file system.
 
-    Returns whether the folder ignores case. Errors: OSError as the system words it.
+    Returns true if the folder ignores case. Errors: OSError from the system.
     """
     name = beside(os.path.join(folder, ""))
     try:
@@ -75,12 +75,12 @@ def probe(folder: str) -> bool:
 
 
 def same_file(one: Place, two: Place) -> bool:
-    """Whether two names end at one file: equal, linked, or alike but for case where the file system ignores it."""
+    """True if two names lead to one file: equal, linked, or alike but for case where the file system ignores it."""
     if one.direct or two.direct:
         streams = stream_number(one.final), stream_number(two.final)
         if streams[0] is not None or streams[1] is not None:
             return streams[0] == streams[1]
-        # Everything may be poured into /dev/null, which keeps nothing.
+        # Several outputs may go to /dev/null.
         if os.devnull in (one.final, two.final):
             return False
     if one.final == two.final:
@@ -94,5 +94,5 @@ def same_file(one: Place, two: Place) -> bool:
 
 
 def folded(path: str) -> str:
-    """The path as a file system compares it that ignores case."""
+    """Path in the form that a file system compares if it ignores case."""
     return unicodedata.normalize("NFC", path).casefold()

@@ -1,4 +1,4 @@
-"""The formats an output can have, by suffix: the one list that every option and every message uses."""
+"""Output formats by suffix: the one list that every option and every message uses."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Kind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
 
 @dataclass(frozen=True)
 class Format:
-    """One kind of file: its suffix with the dot, what it holds (`triangles`: no columns), and a line for the help."""
+    """One kind of file: its suffix with the dot, its content (`triangles`: no columns), and a line for the help."""
 
     suffix: str
     kind: Kind
@@ -36,7 +36,7 @@ FORMATS: dict[str, Format] = {
         Format(".glb", "mesh", "mesh with vertex colours, binary glTF, float32"),
         Format(".stl", "triangles", "triangles, binary, float32"),
         Format(".json", "report", "report, JSON"),
-        Format(".html", "page", "report as one page with the surface to turn, HTML"),
+        Format(".html", "page", "report as one page with a 3D view of the surface, HTML"),
         Format(".md", "page", "report for pull requests, Markdown"),
         Format(".png", "picture", "picture of the coloured surface"),
         Format(".hist.png", "picture", "histogram and area-weighted distribution of columns"),
@@ -45,19 +45,19 @@ FORMATS: dict[str, Format] = {
 
 
 def suffixes(kinds: Collection[Kind] | None = None) -> tuple[str, ...]:
-    """The promised suffixes of these kinds, or of all, in the order of the documentation."""
+    """Suffixes of these kinds, or of all, in the order of the documentation."""
     return tuple(suffix for suffix, format in FORMATS.items() if kinds is None or format.kind in kinds)
 
 
 def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | None = None) -> Format:
-    """The format of an output: `name` (as in `--format csv`) if given, else the suffix of the path.
+    """Format of an output: `name` (as in `--format csv`) if given, else by the suffix of the path.
 
-    Errors: UsageError for a suffix or a name that is not promised, with the list of those that are.
+    Errors: UsageError for an unknown suffix or name, with the known ones.
     """
     promised = suffixes(kinds)
     given = name if name is not None else _suffix(path)
     if name is None and path == "-":
-        raise UsageError(f"-: a stream has no suffix; say --format with one of {_listed(promised, dot=False)}")
+        raise UsageError(f"-: a stream has no suffix; give --format one of {_listed(promised, dot=False)}")
     suffix = "." + given.lower().lstrip(".")
     if suffix in promised:
         return FORMATS[suffix]
@@ -70,7 +70,7 @@ def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | N
 
 
 def _suffix(path: str) -> str:
-    """The suffix of a path: the longest that is known, such as `.hist.png`, else what follows the last dot."""
+    """Suffix of a path: the longest known one, such as `.hist.png`, else the text behind the last dot."""
     stem, last = os.path.splitext(path)
     both = os.path.splitext(stem)[1] + last
     return both if both.lower() in FORMATS else last

@@ -44,7 +44,7 @@ def write_outputs(
 ) -> list[Notice]:
     """Write the named outputs whole or not at all; `-` is stdout in `stream_format`.
 
-    Errors: UsageError for a suffix that is not promised, OutputError for a path that exists or cannot be written.
+    Errors: UsageError for an unknown suffix, OutputError for a path that exists or cannot be written.
     """
     paths = list(paths)
     formats = [format_of(path, name=stream_format if path == "-" else None) for path in paths]
@@ -132,7 +132,7 @@ def write_into(
 def _tables(
     analysis: Result, formats: Mapping[str, Format], others: Iterable[tuple[str, str]], stream_format: str | None
 ) -> Iterator[tuple[str, Table, str]]:
-    """Path, columns and suffix of every table that is wanted."""
+    """Path, columns and suffix of every requested table."""
     for kind, path in others:
         suffix = format_of(path, name=stream_format if path == "-" else None, kinds=["table"]).suffix
         yield path, TABLES[kind](analysis), suffix
@@ -175,17 +175,17 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
         elsewhere = sorted(suffixes & {".ply", ".obj", ".glb", ".vtp", ".vtu", ".hist.png"})
         if quantity.on == "edge" and elsewhere:
             raise UsageError(
-                f"--color-by {name}: a column of edges, for which {elsewhere[0]} has no colours; a picture (.png) and "
-                "a page (.html) show it, --table edges=PATH holds it"
+                f"--color-by {name}: a column of edges, for which {elsewhere[0]} has no colours; use a picture (.png), "
+                "a page (.html) or --table edges=PATH"
             )
 
 
 def _write_picture(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance) -> list[str]:
-    """Draw the surface or the histograms; what is to be said of each column, a line each."""
+    """Draw the surface or the histograms; return one line per column on its range."""
     from .pictures.legend import sentence
 
     require_pictures(suffix != ".hist.png")
-    # What such imports leave behind refers to the frames below it, and those here to the analysis.
+    # References of such imports keep the frames below alive, and those here refer to the analysis.
     import_apart("matplotlib.figure", *(() if suffix == ".hist.png" else ("pyvista.plotting",)))
     shown = [colored(analysis, name, appearance) for name in panels(appearance, analysis.chosen, suffix)]
     if suffix == ".hist.png":
@@ -200,7 +200,7 @@ def _write_picture(stream: BinaryIO, analysis: Result, suffix: str, appearance: 
 
 
 def _write_page(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance, command: str | None) -> None:
-    """Write the report for people."""
+    """Write the report as a page."""
     if suffix == ".md":
         from ..report.build import model
         from ..report.markdown import markdown

@@ -111,7 +111,7 @@ def test_harm_costs_the_mesh_that_does_it_only(tmp_path: Path, trapped: dict[str
         "2-12.obj": (
             "crashed",
             70,
-            f"{path}/2-12.obj: the worker was ended by SIGKILL; out of memory? fewer jobs at once (-j) need less",
+            f"{path}/2-12.obj: the worker was ended by SIGKILL; out of memory? try fewer jobs at once (-j)",
         ),
         "2-13.obj": ("timeout", 3, f"{path}/2-13.obj: takes longer than the 1.5 s allowed; --timeout sets the limit"),
         "2-14.obj": rows["2-14.obj"],

@@ -65,7 +65,7 @@ def test_a_damaged_line_costs_its_row_only(tmp_path: Path, damage: bytes) -> Non
 
 def test_folders_that_hold_something(tmp_path: Path) -> None:
     written(tmp_path)
-    with pytest.raises(OutputError, match="--resume goes on there, --force begins anew"):
+    with pytest.raises(OutputError, match="--resume continues there, --force starts again"):
         Manifest(str(tmp_path))
     with Manifest(str(tmp_path), force=True) as manifest:
         assert manifest.rows == {}

@@ -187,7 +187,7 @@ def test_a_working_folder_that_is_gone(tmp_path: Path) -> None:
     assert run("analyze", "cube.obj") == (3, "curvcli: cube.obj: no such file\n")
     assert run("analyze", CUBE, "-o", "k.csv")[0] == 4
     code, words = run("batch", CUBE, "-o", "out")
-    assert (code, words.startswith("curvcli: out: the working folder is gone")) == (3, True)
+    assert (code, words.startswith("curvcli: out: the working folder was removed")) == (3, True)
 
 
 def test_a_stem_may_stand_amid_a_name(tmp_path: Path) -> None:

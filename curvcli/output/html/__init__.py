@@ -1,1 +1,1 @@
-"""The report as one page that needs nothing but a browser: tables, histograms and the surface to turn and to ask."""
+"""Report as one self-contained HTML page: tables, histograms and an interactive 3D view."""

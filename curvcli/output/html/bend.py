@@ -1,4 +1,4 @@
-"""Edges of a page in the colours of one of their columns, and the columns of vertices that stay in their cells."""
+"""Edges of a page in the colours of one of their columns, and vertex columns that are painted in cells."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from ...analysis.result import Result
     from ..appearance import Appearance
 
-# Colours that lines have; and more faces than these are blended, since a browser holds seven triangles of each.
+# Number of colours of lines; and the most faces drawn with cells: a browser stores seven triangles for each.
 _SHADES, _MOST_FACES = 31, 100_000
 
 
 @dataclass(frozen=True)
 class Bend:
-    """Edges with their colours: pairs (k, 2) of shown vertices, shade by shade; of each shade its bytes and a count."""
+    """Edges with their colours: pairs (k, 2) of shown vertices by shade; the bytes and the count of each shade."""
 
     painted: Colored
     unit: str
@@ -32,7 +32,7 @@ class Bend:
 
 
 def bend(analysis: Result, appearance: Appearance, asked: tuple[str, ...], display: Display) -> Bend | None:
-    """The first column of edges that is asked for, on the edges whose two ends are shown; None without one.
+    """First column of edges asked for, on the edges whose two ends are shown; None without one.
 
     Undefined edges and those with the colour of 0 are left out.
     """
@@ -66,11 +66,11 @@ def bend(analysis: Result, appearance: Appearance, asked: tuple[str, ...], displ
 
 
 def in_cells(analysis: Result, display: Display) -> bool:
-    """Whether densities of stars are painted in the cells of their vertices: on creased meshes that are shown whole."""
+    """True if densities of stars are painted in the cells of their vertices: on creased meshes that are shown whole."""
     few = display.whole and len(display.faces) <= _MOST_FACES
     return few and any(notice.code == "creased" for notice in analysis.notices)
 
 
 def cell(one: Colored) -> bool:
-    """Whether a column is a density of stars that has colours."""
+    """True if a column is a density of stars that has colours."""
     return one.quantity.name in STARS and one.scale.low is not None

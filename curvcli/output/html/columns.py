@@ -1,4 +1,4 @@
-"""The columns of a page: values, colours and their spread."""
+"""Columns of a page: values, colours and histograms."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from ..appearance import Appearance
 
 _BINS = 60
-# Values without a colour of their own.
+# Codes of values without a colour of their own.
 _PLAIN = ("vertex", "x", "y", "z", "status", "welded_to")
 
 
 @dataclass(frozen=True)
 class Bar:
-    """One bar of a histogram in hundredths of its width and height, and its colour."""
+    """Bar of a histogram in hundredths of its width and height, and its colour."""
 
     left: float
     width: float
@@ -35,7 +35,7 @@ class Bar:
 
 @dataclass(frozen=True)
 class Column:
-    """One column with a value per vertex of the file, NaN where undefined, and the colours it is shown in."""
+    """Column with a value per vertex of the file, NaN where undefined, and its colours."""
 
     painted: Colored
     unit: str
@@ -45,17 +45,17 @@ class Column:
 
     @property
     def name(self) -> str:
-        """Its name in the table."""
+        """Name of the column in the table."""
         return self.painted.name
 
     @property
     def scale(self) -> ColorScale:
-        """Its colours."""
+        """Colours of the column."""
         return self.painted.scale
 
     @property
     def middle(self) -> float | None:
-        """The value in the middle of the colours."""
+        """Value in the middle of the colours."""
         low, high = self.scale.low, self.scale.high
         return None if low is None or high is None else low / 2 + high / 2
 
@@ -63,7 +63,7 @@ class Column:
 def columns(analysis: Result, appearance: Appearance, asked: tuple[str, ...]) -> list[Column]:
     """Every numeric column of the vertex table, in its order.
 
-    asked: the columns that `--range LO:HI` speaks of; a percentage is for all.
+    asked: the columns that `--range LO:HI` applies to; a percentage applies to all.
     """
     referenced = analysis.surface.referenced
     plain = replace(appearance, value_range=None)
@@ -80,7 +80,7 @@ def columns(analysis: Result, appearance: Appearance, asked: tuple[str, ...]) ->
 
 
 def histogram(values: NDArray[np.float64], scale: ColorScale) -> tuple[list[Bar], int]:
-    """Bars over the colours, one at each side for the values that the range cuts; and how many the tallest counts."""
+    """Bars over the colours, one at each side for values beyond the range; and the count of the tallest bar."""
     low, high = scale.low, scale.high
     if low is None or high is None:
         return [], 0
@@ -91,7 +91,7 @@ def histogram(values: NDArray[np.float64], scale: ColorScale) -> tuple[list[Bar]
     below, above = int((values < low).sum()), int((values > high).sum())
     most = max(int(counts.max()), below, above, 1)
     steps = len(scale.gradient) - 1
-    # Room for the bars of what is cut: 3 % and a gap of 1 % at either side.
+    # Room for the bars of values beyond the range: 3 % and a gap of 1 % at either side.
     wide = 92 / _BINS
     bars = [Bar(0, 3, 100 * below / most, hex_color(scale.gradient[0]))] if below else []
     for k in np.flatnonzero(counts).tolist():
@@ -103,5 +103,5 @@ def histogram(values: NDArray[np.float64], scale: ColorScale) -> tuple[list[Bar]
 
 
 def hex_color(rgb: Any) -> str:
-    """A colour as the web writes it."""
+    """Colour as #rrggbb."""
     return "#" + "".join(f"{int(part):02x}" for part in rgb)

@@ -1,4 +1,4 @@
-"""What of a surface a page shows: all of it, or one vertex of the file for each cell of a grid."""
+"""Surface of a page: the whole surface, or one vertex of the file for each cell of a grid."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from ...mesh.surface import Surface
 
 Index = NDArray[np.int32]
 
-# How near the number of cells must come to what is allowed, and how often the size of a cell is tried.
+# Relative gap allowed between the number of cells and its limit, and the most trials of the size of a cell.
 _NEAR, _TRIES = 0.9, 8
 
 
 @dataclass(frozen=True)
 class Display:
-    """A surface for the eye: nothing is moved, nothing is averaged.
+    """Shown surface: vertices keep their positions, values are not averaged.
 
     vertices: (n,) indices in the file, ascending. faces: (m, 3), boundary, crowded: (k, 2), of indices in `vertices`;
-    crowded are the edges where more than two faces meet. whole: whether every vertex and face is there.
+    crowded are the edges where more than two faces meet. whole: true if every vertex and face is there.
     """
 
     vertices: Index
@@ -32,7 +32,7 @@ class Display:
 
 
 def whole(surface: Surface) -> Display:
-    """Every vertex that a face uses and every face."""
+    """Every vertex that a face uses, and every face."""
     vertices = np.flatnonzero(surface.referenced).astype(np.int32)
     place = np.zeros(surface.n_vertices, np.int32)
     place[vertices] = np.arange(len(vertices), dtype=np.int32)
@@ -40,10 +40,10 @@ def whole(surface: Surface) -> Display:
 
 
 def simplified(surface: Surface, most: int) -> Display:
-    """At most so many vertices: the first of the file in each cell of a grid stands for all in it.
+    """At most `most` vertices: the first of the file in each cell of a grid stands for all in it.
 
-    Faces whose corners are no longer three, and repeated ones, are left out. Where that leaves next to nothing, as of
-    many small pieces, faces at equal steps are shown as they are.
+    Faces whose corners collapse, and repeated ones, are left out. If almost no face is left, as for many small pieces,
+    faces at equal steps are shown unchanged.
     """
     used = np.flatnonzero(surface.referenced).astype(np.int32)
     first, number = _cells(surface.xyz[:, used], most)
@@ -75,10 +75,10 @@ def _display(surface: Surface, vertices: Index, place: Index, faces: Index, *, w
 
 
 def _cells(xyz: NDArray[np.float64], most: int) -> tuple[NDArray[Any], NDArray[Any]]:
-    """The first vertex of each occupied cell, and the cell of each vertex, for the finest grid that is allowed."""
+    """First vertex of each occupied cell, and the cell of each vertex, for the finest grid within the limit."""
     low, high = xyz.min(axis=1), xyz.max(axis=1)
     extent = float((high - low).max()) or 1.0
-    # A surface meets about 3 n² cells of a cube of n³; how many there are grows with the square of their fineness.
+    # A surface meets about 3 n² cells of a cube of n³: their number grows with the square of the resolution.
     finest = float(2**20)
     cells = min(np.sqrt(most / 3.0), finest)
     best = 1.0

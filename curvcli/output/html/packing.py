@@ -9,16 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-# Beyond these float32 has no number, or not all its digits.
+# Limits of float32: larger numbers overflow, smaller ones lose digits.
 _LARGEST, _SMALLEST = 1e37, 1e-30
-# Of values whose spread is this many times smaller than they are, float32 keeps too few digits to tell them apart.
+# If the spread of values is this many times smaller than their size, float32 has too few digits to separate them.
 _NARROW = 256.0
 
 
 class Scaled(NamedTuple):
     """Numbers as 2**exponent · (values + rest): values alone are the numbers to float32.
 
-    The exponent is 0 where float32 reaches, the rest is None where it is not needed to tell the numbers apart.
+    The exponent is 0 within the range of float32; the rest is None if the values separate the numbers.
     """
 
     values: NDArray[np.float32]
@@ -27,7 +27,7 @@ class Scaled(NamedTuple):
 
     @property
     def parts(self) -> NDArray[np.float32]:
-        """(n,) or (n, 2) values, and the rest where there is one."""
+        """(n,) or (n, 2) values, with the rest if there is one."""
         return self.values if self.rest is None else np.stack([self.values, self.rest], axis=1)
 
 
@@ -46,7 +46,7 @@ def scaled(numbers: NDArray[np.float64]) -> Scaled:
 
 
 def packed(array: NDArray[Any]) -> str:
-    """An array as text: component after component, each as planes of bytes, which deflate better than mixed ones."""
+    """Array as text: component after component, each as planes of bytes, which deflate better than mixed ones."""
     flat = np.ascontiguousarray(array.T).ravel()
     little = flat.astype(flat.dtype.newbyteorder("<"), copy=False)
     planes = little.view(np.uint8).reshape(-1, flat.dtype.itemsize).T
@@ -54,12 +54,12 @@ def packed(array: NDArray[Any]) -> str:
 
 
 def differences(ascending: NDArray[np.integer[Any]]) -> NDArray[np.uint32]:
-    """An ascending list as its first number and the steps."""
+    """Ascending list as its first number and the steps."""
     return np.diff(ascending, prepend=0).astype(np.uint32)
 
 
 def steps(indices: NDArray[np.integer[Any]]) -> NDArray[np.uint32]:
-    """(n, k) indices as differences, of each row's first to the last row's first, of the others to the one before.
+    """(n, k) indices as differences: each row's first from the last row's first, the others from the one before.
 
     Small ones of either sign become small numbers: 0, −1, 1, −2, … are 0, 1, 2, 3, …
     """

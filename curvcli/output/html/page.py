@@ -1,4 +1,4 @@
-"""The page: the report and the surface through one template, within a bound on its size."""
+"""Page: report and surface through one template, within a limit on its size."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ if TYPE_CHECKING:
     from ...analysis.result import Result
     from ..appearance import Appearance
 
-# The page may have 15 MB; what is not the surface is well below 2.
+# Limit of 15 MB for the page; everything but the surface is well below 2 MB.
 SURFACE_BYTES = 12_500_000
-# More cannot be told apart on a screen, and a telephone has to turn it.
+# A screen shows no more vertices, and a telephone has to turn them.
 MOST_VERTICES = 200_000
 
 
 def page(analysis: Result, appearance: Appearance, colored: tuple[str, ...], command: str | None) -> bytes:
-    """The page of an analysis. colored: the columns that were asked for; the first is shown first.
-    command: what made it, for a shell.
+    """Page of an analysis. colored: the columns asked for; the first is shown first.
+    command: the shell command that made it.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
@@ -104,7 +104,7 @@ def page(analysis: Result, appearance: Appearance, colored: tuple[str, ...], com
 
 
 def _rendered(template: Template, **values: Any) -> str:
-    """The text of a template; its macros refer to the context and that to them, so that the context is emptied."""
+    """Text of a template; its macros and its context refer to each other, so that the context is emptied."""
     context = template.new_context(values)
     try:
         return "".join(template.root_render_func(context))
@@ -119,16 +119,16 @@ def _first(shown: list[Column], colored: tuple[str, ...]) -> str | None:
 
 
 def _totals() -> dict[str, Any]:
-    """The quantity that each total sums."""
+    """Quantity that each total sums."""
     from ...curvatures.registry import passes
 
     return {quantity.total or "": quantity for quantity in passes.totals()}
 
 
 def _policy(style: str, scripts: list[str]) -> str:
-    """What the page may do: run and look as written here, and nothing else; no address is ever asked.
+    """Content security policy: only the scripts and styles of the page, and no network access.
 
-    Nothing here evaluates text, but programs that drive browsers wait for conditions by it.
+    'unsafe-eval' is for programs that drive browsers: they evaluate text to wait for conditions; the page does not.
     """
     allowed = " ".join([*map(_digest, scripts), "'unsafe-eval'"])
     return (
@@ -142,14 +142,14 @@ def _digest(text: str) -> str:
 
 
 def _exact(value: Any) -> str:
-    """A number for other programs: the shortest text that reads back to the same double, empty where undefined."""
+    """Number for other programs: the shortest text that reads back to the same double, empty where undefined."""
     if isinstance(value, list):
         return " ".join(map(_exact, value))
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)
 
 
 def _coded(text: str) -> Any:
-    """Text whose parts between backticks are code."""
+    """Text with the parts between backticks as code."""
     from markupsafe import Markup
 
     parts = escape_text(text).split("`")
@@ -159,7 +159,7 @@ def _coded(text: str) -> Any:
 
 
 def _fitted(analysis: Result, shown: list[Column]) -> tuple[Display, dict[str, Any]]:
-    """As much of the surface as the page can hold, and its blocks of data."""
+    """Surface, simplified to the limit of the page, and its blocks of data."""
     surface = analysis.surface
     # Deflated and in base64 a float takes about 4.4 bytes, the two faces of a vertex about 14.
     per_vertex = 4.4 * (len(shown) + 3) + 22
@@ -176,7 +176,7 @@ def _fitted(analysis: Result, shown: list[Column]) -> tuple[Display, dict[str, A
 
 
 def _blocks(analysis: Result, display: Display, shown: list[Column]) -> dict[str, Any]:
-    """The data of the page by name; `meta` says how numbers are to be read."""
+    """Data of the page by name; `meta` has the encoding of numbers."""
     vertices = display.vertices
     meta: dict[str, Any] = {"columns": {}}
     axes = [scaled(axis[vertices]) for axis in analysis.surface.xyz_given]
@@ -216,7 +216,7 @@ def _normals(analysis: Result, display: Display) -> Any:
 
 
 def _camera(look: Look) -> list[list[float]]:
-    """The direction from which the surface is seen first, and what is upwards then; `fit` is for pictures."""
+    """First direction of view and the axis that points up; `fit` is for pictures."""
     angles = parse_view(look.view) or VIEWS["iso"]
     _, above, towards = frame(*angles)
     turned = [[v[0], v[2], -v[1]] if look.up == "y" else list(v) for v in (towards, above)]
@@ -226,7 +226,7 @@ def _camera(look: Look) -> list[list[float]]:
 def _data(
     analysis: Result, appearance: Appearance, display: Display, shown: list[Column], meta: dict[str, Any]
 ) -> dict[str, Any]:
-    """What the page's program has to know."""
+    """Data for the script of the page."""
     from ...curvatures.registry import passes
 
     creased = in_cells(analysis, display)

@@ -1,1 +1,1 @@
-"""Coloured meshes, one format a file."""
+"""Writers of coloured meshes, one file per format."""

@@ -17,12 +17,12 @@ def write_glb(
     faces: NDArray[np.integer[Any]],
     vertex_colors: NDArray[np.uint8] | None = None,
 ) -> tuple[Notice, ...]:
-    """Write points (V, 3) and triangles (F, 3), with colours (V, 3) as COLOR_0, every vertex in its place.
+    """Write points (V, 3) and triangles (F, 3), with colours (V, 3) as COLOR_0; vertices keep their order.
 
-    glTF has float32 positions. Where the mesh lies far from the origin, they are taken from its middle, whose place the
-    node holds, so that the offset costs no digits of the shape. A vertex that no face uses and that has no finite
-    position is put at the origin. Colours in glTF are proportional to light: a viewer shows those of the legend.
-    Returns how many positions were rounded. Errors: OutputError for a size that float32 cannot hold.
+    glTF has float32 positions. If the mesh lies far from the origin, they are relative to its middle, which
+    the node stores, so that the offset costs no digits of the shape. A vertex that no face uses and that has no finite
+    position is put at the origin. Colours in glTF are linear in light: a viewer shows those of the legend.
+    Returns the number of rounded positions. Errors: OutputError for a size beyond float32.
     """
     import trimesh
 
@@ -31,7 +31,7 @@ def write_glb(
     middle, half = low / 2 + high / 2, float((high / 2 - low / 2).max())
     largest, smallest = float(np.finfo(np.float32).max), float(np.finfo(np.float32).tiny)
     if half > largest / 4 or 0 < half < smallest * 2**24:
-        raise OutputError(f"glTF keeps float32, which cannot hold a mesh of the size {2 * half:g}; .ply can")
+        raise OutputError(f"glTF has float32 only, and the size {2 * half:g} of the mesh is beyond it; write .ply")
     if np.abs(middle).max() <= 4 * half:
         middle = np.zeros(3)
     shifted = np.where(np.isfinite(points), points, middle) - middle
@@ -51,7 +51,7 @@ def write_glb(
 
 
 def _linear(colors: NDArray[np.uint8] | None) -> NDArray[np.uint8] | None:
-    """(V, 4) bytes proportional to light, as glTF has them, from those of a screen (sRGB)."""
+    """(V, 4) bytes linear in light, as in glTF, from those of a screen (sRGB)."""
     if colors is None:
         return None
     screen = np.arange(256) / 255

@@ -1,4 +1,4 @@
-"""Names of properties as a format can hold them: kept where that is possible, else spelt in another way and said."""
+"""Names of properties in the spelling of a format; changes are reported in a notice."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from ...support.words import escape_text, pluralize
 
 
 def fitting(names: Iterable[str], fit: Callable[[str], str], taken: Collection[str] = ()) -> dict[str, str]:
-    """What each name is written as: as `fit` spells it, behind `input_` where that is taken.
+    """Written form of each name: spelt by `fit`, and with the prefix `input_` if that is taken.
 
-    taken: names that the format itself gives. Names that need no other spelling are never changed for one that does.
+    taken: names of the format itself. A name that needs no other spelling is never changed in favour of one that does.
     """
     names = list(names)
     used = {*taken, *(name for name in names if fit(name) == name and name not in taken)}
@@ -27,7 +27,7 @@ def fitting(names: Iterable[str], fit: Callable[[str], str], taken: Collection[s
 
 
 def respelt(*written: dict[str, str]) -> tuple[Notice, ...]:
-    """The notice of names that a format spells in another way; none where there is none."""
+    """Notice of names that a format spells in another way; empty if there are none."""
     pairs = (pair for each in written for pair in each.items())
     changed = dict.fromkeys(f"{escape_text(name)} -> {escape_text(one)}" for name, one in pairs if name != one)
     if not changed:
@@ -38,12 +38,12 @@ def respelt(*written: dict[str, str]) -> tuple[Notice, ...]:
 
 
 def one_word(name: str) -> str:
-    """A name as one word of text: blanks as underscores, what cannot be printed escaped."""
+    """Name as one word: blanks become underscores, unprintable characters are escaped."""
     return escape_text("_".join(part for part in name.split(" ") if part)) or "_"
 
 
 def xml_name(name: str) -> str:
-    """A name as XML 1.0 can hold it: the few characters that it cannot are escaped as in Python."""
+    """Name in the characters of XML 1.0; others are escaped as in Python."""
     return "".join(c if _in_xml(c) else c.encode("unicode_escape").decode("ascii") for c in name) or "_"
 
 
@@ -52,5 +52,5 @@ def _in_xml(c: str) -> bool:
 
 
 def xml_attribute(name: str) -> str:
-    """The text between the quotes of an attribute, in ASCII, which a reader of XML turns into the name again."""
+    """Value of an XML attribute in ASCII; an XML parser turns it into the name again."""
     return "".join(c if c.isascii() and c.isprintable() and c not in "<>&\"'" else f"&#{ord(c)};" for c in name)

@@ -1,4 +1,4 @@
-"""Wavefront OBJ: positions that read back to the same doubles, colours behind them, faces as loaded."""
+"""Wavefront OBJ writer: positions that read back to the same doubles, colours behind them, faces as loaded."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def write_obj(
 ) -> None:
     """Write `v x y z` or `v x y z r g b` with colours from 0 to 1, then `f` records counted from 1.
 
-    points (V, 3), faces (F, 3). Of the parts, polygons, colours and comments: OBJ holds no further properties.
+    points (V, 3), faces (F, 3). Of the parts, polygons, colours and comments: OBJ has no other properties.
     """
     colors, polygons = parts.get("vertex_colors"), parts.get("polygons")
     for comment in parts.get("comments", ()):
@@ -41,13 +41,13 @@ def write_obj(
 
 
 def _write_polygons(stream: BinaryIO, corners: NDArray[np.integer[Any]], sizes: NDArray[np.integer[Any]]) -> None:
-    """One line per corner, `f` before the first of each polygon; then a line end before a blank is taken out."""
+    """Write one line per corner with `f` before the first of each polygon, then remove each line end before a blank."""
     starts = np.zeros(len(corners), np.bool_)
     starts[(np.cumsum(sizes) - sizes)[sizes > 0]] = True
     for rows in slices(len(corners), ROWS_AT_A_TIME):
         letter = numbers(starts[rows]).replace_strict([True, False], ["f", None], return_dtype=pl.String)
         text = lines({"f": letter, "corner": numbers(corners[rows].astype(np.int64) + 1)})
-        # The line end of a block's last corner may go as well: it is written before the next block instead.
+        # The line end of a block's last corner may be removed too: it is written before the next block instead.
         body = without(text[:-1], b"\n", b" ")
         if rows.start and starts[rows.start]:
             stream.write(b"\n")

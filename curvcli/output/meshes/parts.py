@@ -1,4 +1,4 @@
-"""What a mesh can have beside its points and faces, for the writers of all formats."""
+"""Parts of a mesh beside its points and faces, for the writers of all formats."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from ..tables.write import Column
 
-# The corner indices of all polygons one after the other, and how many corners each has.
+# Corner indices of all polygons, concatenated, and the number of corners of each.
 Polygons = tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]
 
 
 class Parts(TypedDict, total=False):
-    """Keywords of every writer; each format keeps what it can hold.
+    """Keywords of every writer; each format writes those that it has.
 
     polygons: the faces of the file, instead of the triangles. vertex_colors: (V, 3) red, green, blue.
     vertex_properties, face_properties: one value per vertex, per face or polygon; NaN is null. comments: lines.
-    triangles: (F, 3) for what holds nothing else, where they are not the faces. active: the property that viewers
-    colour by at first.
+    triangles: (F, 3) for formats of triangles only, where they are not the faces. active: the property that viewers
+    colour by first.
     """
 
     polygons: Polygons | None

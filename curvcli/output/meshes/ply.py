@@ -1,4 +1,4 @@
-"""Binary PLY: float64 positions, every column as a property, faces as loaded."""
+"""Binary PLY writer: float64 positions, every column as a property, faces as loaded."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..tables.write import Column
 from .names import fitting, one_word, respelt
 from .parts import Parts
 
-_ROWS_AT_A_TIME = 16384  # a block of them stays in the cache until it is written
+_ROWS_AT_A_TIME = 16384  # a block of this size fits in the cache
 _NAMES_TOLD = 256
 _CORNERS = "vertex_indices"
 _SCALARS = {
@@ -36,8 +36,8 @@ def write_ply(
     """Write points (V, 3) and faces (F, 3) as binary little-endian PLY with `double` positions, in bounded memory.
 
     Of the parts, polygons, colours, properties and comments. Properties keep their type; masked integers become double.
-    Labels become uchar or int codes whose meaning stands in comments. Names are words in UTF-8; what is no word, or is
-    the name of something else, is spelt in another way, which is returned.
+    Labels become uchar or int codes; comments list their meaning. Names are words in UTF-8; an invalid or taken name is
+    spelt in another way, and the notice of that is returned.
     """
     vertices: dict[str, NDArray[Any]] = {axis: points[:, k] for k, axis in enumerate("xyz")}
     if (colors := parts.get("vertex_colors")) is not None:
@@ -78,8 +78,8 @@ def _ascii(line: str) -> str:
 
 
 def _records(columns: Mapping[str, NDArray[Any]], length: int) -> Iterator[NDArray[Any]]:
-    """The rows of the columns side by side, a block at a time."""
-    # By number: not every name is one that a field may have.
+    """Rows of the columns side by side, a block at a time."""
+    # Fields are numbered: not every name is a valid name of a field.
     fields = [(str(place), column.dtype) for place, column in enumerate(columns.values())]
     block = np.empty(min(length, _ROWS_AT_A_TIME), fields)
     for start in range(0, length, _ROWS_AT_A_TIME):
@@ -113,13 +113,13 @@ def _mixed(
     count: str,
     properties: Mapping[str, NDArray[Any]],
 ) -> Iterator[NDArray[Any]]:
-    """The face rows when polygons differ in their number of corners: each size made apart, then put in its places."""
+    """Rows of faces for polygons of several sizes: each size is made apart, then put in its places."""
     fixed = np.dtype(count).itemsize + sum(column.dtype.itemsize for column in properties.values())
     first = np.zeros(len(sizes) + 1, np.int64)
     np.cumsum(sizes, out=first[1:])
     start = 0
     while start < len(sizes):
-        # Blocks end after so many corners, that one huge polygon among many small ones costs only itself.
+        # Blocks end after so many corners: one huge polygon among many small ones costs only itself.
         stop = int(np.searchsorted(first, first[start] + 4 * _ROWS_AT_A_TIME, side="right")) - 1
         stop = min(max(stop, start + 1), start + _ROWS_AT_A_TIME)
         block = sizes[start:stop]
@@ -139,7 +139,7 @@ def _mixed(
 
 
 def _scalars(columns: Mapping[str, Column], words: Mapping[str, str], told: list[str]) -> dict[str, NDArray[Any]]:
-    """The columns in the scalar types of PLY, little-endian; the meaning of label codes is added to the comments."""
+    """Columns in the scalar types of PLY, little-endian; the meaning of label codes is added to the comments."""
     return {words[name]: _scalar(words[name], column, told) for name, column in columns.items()}
 
 
@@ -167,7 +167,7 @@ def _codes(name: str, labels: Labels, told: list[str]) -> NDArray[Any]:
 
 
 def meaning(name: str, labels: Labels, none: int) -> str:
-    """One line that says what the codes of a column stand for; none: the code of no label."""
+    """One line with the meaning of the codes of a column; none: the code of no label."""
     meanings = [f"{code} {' '.join(label.split())}" for code, label in enumerate(labels.names[:_NAMES_TOLD])]
     if len(labels.names) > _NAMES_TOLD:
         meanings.append(f"and {len(labels.names) - _NAMES_TOLD} more")

@@ -1,4 +1,4 @@
-"""STL, binary and as text: loose triangles without shared vertices."""
+"""STL writers, binary and text: triangles without shared vertices."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _RECORD = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (3, 3)), ("attri
 
 
 def write_stl(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]]) -> tuple[Notice, ...]:
-    """Write triangles as binary STL, which keeps float32 only; the notice counts the positions it rounds.
+    """Write triangles as binary STL, which has float32 only; the notice counts the rounded positions.
 
     points (V, 3), faces (F, 3). A triangle without area has the normal 0 0 0.
-    Errors: OutputError for a coordinate that float32 cannot hold, or more than 2³² - 1 triangles.
+    Errors: OutputError for a coordinate beyond float32, or more than 2³² - 1 triangles.
     """
     if len(faces) >= 2**32:
-        raise OutputError(f"STL holds fewer than 2³² triangles, this mesh has {len(faces)}; .ply holds them")
+        raise OutputError(f"STL is limited to 2³² - 1 triangles, this mesh has {len(faces)}; write .ply")
     referenced = np.zeros(len(points), np.bool_)
     referenced[faces] = True
     used = points[referenced]
@@ -32,7 +32,7 @@ def write_stl(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.i
         kept = used.astype(np.float32)
     large = ~np.isfinite(kept) & np.isfinite(used)
     if large.any():
-        raise OutputError(f"STL keeps float32, which cannot hold the coordinate {used[large][0]:g}; .ply can")
+        raise OutputError(f"STL has float32 only, and the coordinate {used[large][0]:g} is beyond it; write .ply")
     stream.write(_HEADER + np.uint32(len(faces)).astype("<u4").tobytes())
     for rows in slices(len(faces), ROWS_AT_A_TIME):
         corners = points[faces[rows]]
@@ -65,7 +65,7 @@ def write_stl_text(stream: BinaryIO, points: NDArray[np.float64], faces: NDArray
 
 
 def _normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Unit normals by the right-hand rule at any scale, 0 0 0 where there is none; corners (n, 3, 3)."""
+    """Unit normals by the right-hand rule at any scale, 0 0 0 for degenerate triangles; corners (n, 3, 3)."""
     sides = corners[:, 1:] - corners[:, :1]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
         sides /= np.abs(sides).max(axis=(1, 2), keepdims=True)

@@ -1,4 +1,4 @@
-"""Lines of numbers at the speed of polars: the text formats of meshes need no quotes, no header and no loop."""
+"""Lines of numbers written by polars, for text formats of meshes: no quotes, no header and no Python loop."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _BATCH = 8192
 
 
 def write_lines(stream: BinaryIO, columns: Mapping[str, pl.Series | str], end: str = "\n") -> None:
-    """The columns side by side with a blank between them; null leaves its place empty, the blank stays. A word stands
+    """Write the columns side by side, separated by a blank; null leaves an empty place, the blank stays. A word stands
     for a column of it."""
     stream.write(lines(columns, end))
 
 
 def lines(columns: Mapping[str, pl.Series | str], end: str = "\n") -> bytes:
-    """What `write_lines` writes, as bytes. The shortest text that reads back to the same double."""
+    """Lines of `write_lines` as bytes, with the shortest text that reads back to the same double."""
     if threads_lost():
         return joined(columns, " ", end)
     text = io.BytesIO()
@@ -36,7 +36,7 @@ def lines(columns: Mapping[str, pl.Series | str], end: str = "\n") -> bytes:
 
 
 def joined(columns: Mapping[str, pl.Series | str], separator: str, end: str) -> bytes:
-    """The same text without the threads of polars: columns of words and numbers side by side."""
+    """Same text without the threads of polars: columns of words and numbers side by side."""
     words = [repeat(c) if isinstance(c, str) else _words(c) for c in columns.values()]
     return "".join([separator.join(row) + end for row in zip(*words, strict=False)]).encode()
 
@@ -46,7 +46,7 @@ def _words(column: pl.Series) -> list[str]:
 
 
 def without(text: bytes, first: bytes, second: bytes) -> NDArray[np.uint8]:
-    """The text less every `first` that stands right before a `second`, both single bytes."""
+    """Text without every `first` that stands right before a `second`, both single bytes."""
     data = np.frombuffer(text, np.uint8)
     keep = np.ones(len(data), np.bool_)
     keep[:-1] = (data[:-1] != first[0]) | (data[1:] != second[0])
@@ -54,5 +54,5 @@ def without(text: bytes, first: bytes, second: bytes) -> NDArray[np.uint8]:
 
 
 def numbers(values: NDArray[Any]) -> pl.Series:
-    """The values for polars, in native order and contiguous; not-a-number stays one."""
+    """Values for polars, in native order and contiguous; NaN stays."""
     return pl.Series(np.ascontiguousarray(values))

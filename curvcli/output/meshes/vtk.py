@@ -1,4 +1,4 @@
-"""VTK XML files, .vtp and .vtu: every column as an array, faces as loaded, written by VTK in memory."""
+"""VTK XML writer, .vtp and .vtu: every column as an array, faces as loaded, written by VTK in memory."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ def write_vtk(
     """Write points (V, 3) and faces (F, 3) as `.vtp` (polygons) or `.vtu` (unstructured grid), positions in float64.
 
     Of the parts everything but triangles. Properties become arrays of points and cells under their names; three that
-    end in _x, _y, _z become a vector array as well. Labels are codes, -1 for none, whose meaning stands in the comments
-    of the XML: field arrays of text would keep other readers from the file. The colours are the array RGB. A name that
-    XML cannot hold, or that is taken, is spelt in another way, which is returned.
-    Errors: InputError for more properties than VTK writes in time: it looks through all for each.
+    end in _x, _y, _z also become a vector array. Labels are codes, -1 for none, with their meaning in the comments
+    of the XML, since other readers refuse files with field arrays of text. The colours are the array RGB. A name that
+    is invalid in XML or taken is spelt in another way, and the notice of that is returned.
+    Errors: InputError for too many properties: VTK's time grows with their square.
     """
     count = len(parts.get("vertex_properties") or ()) + len(parts.get("face_properties") or ())
     if count > _MOST:
         raise InputError(
             f"{count:,} properties are too many for {suffix}, at most {_MOST:,} expected",
-            hint=".ply holds them all",
+            hint="write .ply, which has no limit",
         )
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
@@ -68,11 +68,11 @@ def write_vtk(
     writer = vtkXMLPolyDataWriter() if suffix == ".vtp" else vtkXMLUnstructuredGridWriter()
     writer.SetInputData(data)
     writer.SetWriteToOutputString(True)
-    # Without compression: digits of curvatures hardly shrink, and zlib takes longer than all the rest.
+    # No compression: digits of curvatures hardly shrink, and zlib takes longer than all the rest.
     writer.SetCompressorTypeToNone()
     writer.SetHeaderTypeToUInt64()
     writer.SetDataModeToAppended()
-    # As text (base64) where meshio reads the format too, which mistakes one raw array for another.
+    # As text (base64) if meshio reads the format too, since it mistakes one raw array for another.
     writer.SetEncodeAppendedData(suffix == ".vtu")
     writer.Write()
     output: Any = writer.GetOutputString()  # bytes if the data are
@@ -86,7 +86,7 @@ def write_vtk(
 
 
 def _mesh(suffix: str, faces: NDArray[np.integer[Any]], polygons: Polygons | None) -> tuple[Any, list[Any]]:
-    """The faces in a data set of VTK, and the arrays that must live as long as it."""
+    """Data set of VTK with the faces, and the arrays that must live as long as it."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 
@@ -107,7 +107,7 @@ def _mesh(suffix: str, faces: NDArray[np.integer[Any]], polygons: Polygons | Non
 
 
 def _values(name: str, column: Column, told: list[str]) -> NDArray[Any]:
-    """A column as an array of one of VTK's types; what codes mean is added to what is told."""
+    """Column as an array of one of VTK's types; the meaning of codes is added to the comments."""
     if isinstance(column, Labels):
         told.append(meaning(name, column, -1))
         return column.codes.astype(np.int32 if len(column.names) > 127 else np.int8)
@@ -119,7 +119,7 @@ def _values(name: str, column: Column, told: list[str]) -> NDArray[Any]:
 
 
 def _vectors(properties: Mapping[str, Column], taken: Collection[str]) -> list[str]:
-    """Stems of three float columns that are the components of a vector and whose name nothing else has."""
+    """Stems of three float columns that are the components of a vector, if the name is free."""
     stems = [name[:-2] for name in properties if name.endswith("_x")]
     free = [stem for stem in stems if stem and stem not in properties and stem not in taken]
     return [stem for stem in free if all(_is_float(properties.get(f"{stem}_{axis}")) for axis in "xyz")]
@@ -130,7 +130,7 @@ def _is_float(column: Column | None) -> bool:
 
 
 def _array(values: NDArray[Any], arrays: list[Any]) -> Any:
-    """A VTK array over the memory of a numpy array, which is kept alive."""
+    """VTK array over the memory of a numpy array, which is kept alive."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
     values = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("="), copy=False))
@@ -145,7 +145,7 @@ def _add(target: Any, name: str, values: NDArray[Any], arrays: list[Any]) -> Non
 
 
 def _comment(lines: list[str]) -> bytes:
-    """An XML comment, within which no two hyphens may meet."""
+    """XML comment; two hyphens may not meet in it."""
     text = "\n".join(lines)
     while "--" in text:
         text = text.replace("--", "- -")

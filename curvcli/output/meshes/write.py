@@ -1,4 +1,4 @@
-"""Meshes by suffix, and what of the input's own properties stands beside ours."""
+"""Mesh writers by suffix, and the input's own properties beside ours."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from .ply import write_ply
 from .stl import write_stl
 
 _POSITION = ("x", "y", "z")
-# A viewer blends alpha with whatever colours it finds, so it belongs to the colours it came with.
+# Alpha belongs to the input's colours: a viewer blends it with any others.
 _COLOR = ("red", "green", "blue", "alpha")
 
 
 def write_mesh(
     stream: BinaryIO, suffix: str, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
 ) -> tuple[Notice, ...]:
-    """Write points (V, 3) and faces (F, 3) in the format of the suffix, with those parts that it can hold.
+    """Write points (V, 3) and faces (F, 3) in the format of the suffix, with those parts that the format has.
 
-    PLY and VTK hold everything, OBJ and glTF colours, STL the triangles alone. Returns what was lost without being
-    asked.
+    PLY and VTK have everything, OBJ and glTF colours, STL the triangles alone. Returns notices of silent losses, such
+    as rounding.
     """
     if suffix == ".ply":
         return write_ply(stream, points, faces, **parts)
@@ -52,7 +52,7 @@ def write_mesh(
 def beside_input(
     ours: Mapping[str, Column], inputs: Mapping[str, Column], *, colored: bool = False
 ) -> tuple[dict[str, Column], tuple[Notice, ...]]:
-    """The input's own properties followed by ours; where names meet, the input's becomes `input_NAME`.
+    """Properties of the input, followed by ours; the input's becomes `input_NAME` if the names are equal.
 
     colored: our own colours are written too, so that the input's red, green, blue and alpha are renamed.
     """

@@ -1,4 +1,4 @@
-"""Where a picture is taken from: axes of the screen, in which parallel projection is leaving out the third."""
+"""Camera of a picture: axes of the screen for parallel projection."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .framing import parse_view
 
 Frame = NDArray[np.float64]
 
-# Beyond this share of its area, the vector area of a surface tells which side it turns outwards.
+# Above this share of its area, the vector area of a surface shows its outer side.
 _ONE_SIDED = 0.1
 
 
 def screen(surface: Surface, view: str, up: Literal["y", "z"] = "z") -> NDArray[np.float64]:
     """(V, 3) positions to the right, upwards and towards the viewer; the surface is centred, its longest side is 2.
 
-    A vertex that no face uses is put where a face is; it is not drawn. Any scale and any offset of the mesh fit.
+    A vertex that no face uses is moved to a face; it is not drawn. Works at any scale and offset of the mesh.
     """
     xyz = np.where(surface.referenced, surface.xyz, surface.base[:, None])
     if up == "y":
@@ -47,7 +47,7 @@ def frame(azimuth: float, elevation: float) -> Frame:
 
 
 def _fitting(surface: Surface, xyz: NDArray[np.float64]) -> Frame:
-    """The principal axes of the surface's area: the longest to the right, the shortest towards the viewer."""
+    """Principal axes of the surface's area: the longest to the right, the shortest towards the viewer."""
     corners = xyz[:, surface.faces]  # (3, F, 3)
     normals = np.cross(corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0], axis=0) / 2
     areas = np.linalg.norm(normals, axis=0)
@@ -64,5 +64,5 @@ def _fitting(surface: Surface, xyz: NDArray[np.float64]) -> Frame:
 
 
 def _sign(direction: NDArray[np.float64]) -> float:
-    """The sign that makes the largest coordinate positive."""
+    """Sign that makes the largest coordinate positive."""
     return 1.0 if direction[np.argmax(np.abs(direction))] >= 0 else -1.0

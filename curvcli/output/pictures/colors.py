@@ -1,4 +1,4 @@
-"""Values to colours: a map for signed and one for other columns, with a range that outliers cannot spoil."""
+"""Colour maps: one for signed and one for other columns, with a range robust against outliers."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ DIVERGING, SEQUENTIAL, CATEGORICAL = "crameri:vik", "crameri:batlow", "tol:light
 CATEGORIES = 9
 # An odd number, so that 0 in a symmetric range has the middle colour; every second one is a map's own of 256.
 _STEPS = 511
-# For undefined values: mid grey, or what is as far from a map that holds greys itself.
+# Colour of undefined values: mid grey, or a colour far from a map with greys.
 _UNDEFINED = ((128, 128, 128), (255, 0, 255), (0, 255, 0))
 _APART = 16
-# Values that differ by less than this part of the largest are one value and its rounding.
+# Values that differ by less than this part of the largest are equal up to rounding.
 _ALIKE = 16 * np.finfo(np.float64).eps
 
 
 @dataclass(frozen=True)
 class Category:
-    """A label with its colour and the number of vertices that have it."""
+    """Label with its colour and the number of vertices that have it."""
 
     name: str
     color: tuple[int, int, int]
@@ -35,13 +35,13 @@ class Category:
 
 @dataclass(frozen=True)
 class ColorScale:
-    """Colours of the vertices and what a legend needs to explain them.
+    """Colours of the vertices and the data of their legend.
 
     rgb: (V, 3) uint8. low, high: values at the ends of the map, None when no value is defined.
     gradient: (511, 3) uint8, the map from low to high. undefined: the colour of nulls, which is not in the map.
-    clipped_below, clipped_above, nulls: how many values lie outside the range or are undefined.
-    signed: whether 0 is the middle of the map. categories: the labels that occur, of a column that has no numbers.
-    rounded: (V,) values other than 0 that rounding alone explains, which have the colour of 0; None for none.
+    clipped_below, clipped_above, nulls: numbers of values outside the range, or undefined.
+    signed: true if 0 is the middle of the map. categories: the labels that occur, for a column without numbers.
+    rounded: (V,) true for values other than 0 within their rounding, which have the colour of 0; None for none.
     """
 
     rgb: NDArray[np.uint8]
@@ -58,7 +58,7 @@ class ColorScale:
     rounded: NDArray[np.bool_] | None = None
 
     def settled(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The values as they are coloured: rounding is 0, and a range of one value is that value up to its rounding."""
+        """Values as coloured: rounding is 0, and a range of one value is that value up to its rounding."""
         if self.rounded is not None:
             values = np.where(self.rounded, 0.0, values)
         return values if self.low is None or self.high is None else _settled(values, self.low, self.high)
@@ -73,15 +73,15 @@ def colorize(
     ignore: NDArray[np.bool_] | None = None,
     floor: NDArray[np.float64] | None = None,
 ) -> ColorScale:
-    """Colour one value per vertex; what is NaN or masked gets a colour that the map does not hold.
+    """Colour one value per vertex; NaN and masked values get a colour that is not in the map.
 
     value_range: `LO:HI`, or `pNN` for the central NN % of the values (signed: symmetric about 0, the NN-th percentile
     of their size). Default: 2nd to 98th percentile; signed: symmetric about 0, the 98th percentile of their size.
     Where that is a single value, but for rounding, though the values differ, as K of a finely divided cube, it is their
-    whole range; where rounding is all by which they differ, they are one value.
-    ignore: (V,) values that do not help to choose the range, unless there are no others.
+    whole range; values that differ by rounding only are one value.
+    ignore: (V,) values that are left out of the choice of the range, unless there are no others.
     floor: (V,) sizes up to which values are rounding, and are coloured as 0; 0 where a value is exact.
-    Errors: UsageError for an unknown map, with the nearest names, and for a range that is none.
+    Errors: UsageError for an unknown map, with the nearest names, and for an invalid range.
     """
     values = _floats(values)
     rounded = None if floor is None else (np.abs(values) <= floor) & (floor > 0)
@@ -106,14 +106,14 @@ def colorize(
 
 
 def _settled(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
-    """The values; where the range is a single one, those that differ from it by their rounding only are that one."""
+    """Values; in a range of a single value, those that differ from it by rounding only are equal to it."""
     if low != high:
         return values
     return np.where(np.abs(values - low) <= _ALIKE * abs(low), low, values)
 
 
 def categorize(codes: NDArray[np.integer[Any]], names: tuple[str, ...]) -> ColorScale:
-    """Colour labels, each with a colour of its own; beyond as many as the map has, colours repeat.
+    """Colour labels, each with its own colour; beyond the colours of the map, colours repeat.
 
     codes: (V,) places in `names`, negative for none.
     """
@@ -139,8 +139,8 @@ def categorize(codes: NDArray[np.integer[Any]], names: tuple[str, ...]) -> Color
 
 
 def _positions(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.intp]:
-    """The place of each value in the gradient; in the middle where the range is a single value."""
-    # Halves, because the width of a range may be more than a double holds.
+    """Index of each value in the gradient; the middle where the range is a single value."""
+    # Halves, because the width of a range may exceed the largest double.
     width = high / 2 - low / 2
     if width == 0:
         place = np.select([values < low, values > high], [0.0, 1.0], 0.5)
@@ -164,7 +164,7 @@ def _range(
     if not len(sample):
         return None, None
     largest = float(np.abs(sample).max())
-    # A power of two takes the largest doubles out of the interpolation's reach and changes no digit.
+    # A power of two keeps the largest doubles within the range of the interpolation and changes no digit.
     scale = 0.25 if largest > 1e300 else 1.0
     alike = _ALIKE * largest
     if signed:
@@ -183,14 +183,14 @@ def _range(
 
 
 def _floats(values: NDArray[Any]) -> NDArray[np.float64]:
-    """The values with NaN for whatever is masked."""
+    """Values with NaN for masked ones."""
     if isinstance(values, np.ma.MaskedArray):
         return np.where(np.ma.getmaskarray(values), np.nan, np.ma.getdata(values)).astype(np.float64, copy=False)
     return values.astype(np.float64, copy=False)
 
 
 def parse_range(value_range: str | None) -> tuple[float | None, float | None, float | None]:
-    """What `--range` means: (low, high, None) for LO:HI, (None, None, percent) for pNN, all None for the default."""
+    """Parse `--range`: (low, high, None) for LO:HI, (None, None, percent) for pNN, all None for the default."""
     if value_range is None:
         return None, None, None
     text = value_range.strip()
@@ -211,13 +211,13 @@ def parse_range(value_range: str | None) -> tuple[float | None, float | None, fl
 
 @cache
 def _gradient(name: str, steps: int = _STEPS) -> NDArray[np.uint8]:
-    """The colours of a map by its name in the `cmap` catalogue; a trailing `_r` reverses it."""
+    """Colours of a map by its name in the `cmap` catalogue; a trailing `_r` reverses it."""
     from cmap import Catalog, Colormap
 
     catalog, plain = Catalog(), name.strip()
     forward = plain[:-2] if plain.lower().endswith("_r") else plain
     try:
-        # The full name, because a short one that two collections share is not taken without a word on stderr.
+        # The full name: for a short one that two collections share, cmap prints a warning on stderr.
         chosen = Colormap(catalog.resolve(forward))
     except KeyError:
         raise UsageError(f"--cmap {name}: no such colour map{suggestion(forward, catalog)}") from None

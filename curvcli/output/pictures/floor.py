@@ -1,4 +1,4 @@
-"""How far rounding alone may move the values of a column from 0: what a picture must not paint as curvature."""
+"""Rounding floor of a column: values that rounding alone can explain, which a picture must not paint as curvature."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 _DEFECT = 16 * EPSILON * 2 * np.pi
 # Coordinates of a flat star that move by half the last place on either side bend it by κA = 4√3 of it at most.
 _LIFTED = 4 * np.sqrt(3)
-# A map has 511 colours: what is smaller than this part of its range has the colour of 0.
+# A map has 511 colours: a value smaller than this part of its range has the colour of 0.
 _UNSEEN = 1 / 1022
 
 _STAR = ("h", "h_signed", "h_hks", "h_perp", "h_normal")
@@ -57,12 +57,12 @@ def floor_needs(quantity: Quantity) -> set[str]:
 
 
 def floor(analysis: Result, quantity: Quantity, values: Floats) -> Floats | None:
-    """(V,) how far from 0 rounding alone may take each value, in the file's unit; None where none could be seen.
+    """(V,) bound on each value due to rounding alone, in the file's unit; None where no colour could show it.
 
-    Coordinates are rounded to doubles, or to float32 where they all are such numbers; the largest of V normal
-    deviations is taken, 1 + √(2 ln V) standard deviations as `K_sigma` and `h_sigma` propagate them, and the rounding
-    of an angle defect. Estimates at a scale are flat where they lift a star by less than the last place. 0 where a
-    value is exact.
+    Coordinates are rounded to doubles, or to float32 where they all are such numbers; the bound is the largest of V
+    normal deviations, 1 + √(2 ln V) standard deviations as `K_sigma` and `h_sigma` propagate them, and the rounding of
+    an angle defect. Estimates at a scale are flat where they lift a star by less than the last place. 0 where a value
+    is exact.
     """
     plain, at = _name(quantity)
     bound: Callable[[_Rounding], Floats] | None = None
@@ -74,13 +74,13 @@ def floor(analysis: Result, quantity: Quantity, values: Floats) -> Floats | None
     if bound is None or not len(known):
         return None
     zero = values == 0
-    # An H whose sign is rounding is 0 already; its size tells that it is not so exactly.
+    # An H whose sign is rounding is 0 already; its size shows that it is not exactly 0.
     settled = zero & (np.nan_to_num(analysis.computed("h")) != 0) if plain in _SIGNED else np.zeros(len(values), bool)
     rounding = _Rounding(analysis)
     found = np.zeros(len(values))
     if known.any():
         reach = analysis.surface.in_file_unit(rounding.reach(quantity), quantity.length_exponent)
-        # Where even the coarsest bound is exceeded, or a value has the colour of 0 anyhow, none need be found.
+        # If even the coarsest bound is exceeded, or a value has the colour of 0 anyway, no finer bound is computed.
         if ((np.abs(values) <= reach) & (np.abs(values) > _UNSEEN * np.median(known))).any():
             found = analysis.surface.in_file_unit(bound(rounding), quantity.length_exponent)
             found = found * (0.5**quantity.mean_degree if analysis.conventions.mean == "average" else 1.0)
@@ -114,7 +114,7 @@ class _Rounding:
         self.analysis = analysis
 
     def reach(self, quantity: Quantity) -> Floats:
-        """A bound that is found without the edges: what faces that turn by the last place over their heights may do."""
+        """Coarse bound without the edges: the effect of faces that turn by the last place over their heights."""
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             K, h = self.turned + _DEFECT, self.pulled / self.area
             reach = {0: K, -1: h, -2: K / self.area, 1: self.pulled}.get(quantity.length_exponent, np.inf + h)
@@ -125,7 +125,7 @@ class _Rounding:
         return np.asarray(np.nan_to_num(reach, nan=0.0))
 
     def of_star(self, name: str) -> Floats:
-        """The bound of a column of stars."""
+        """Bound for a column of stars."""
         sigma_K, sigma_h = _sigmas(self.analysis)
         if name in _DEFECTS:
             return sigma_K
@@ -145,7 +145,7 @@ class _Rounding:
             return np.asarray(0.5 * sigma_h + np.fmin(np.sqrt(radicand), radicand / root))
 
     def estimate(self, quantity: Quantity, suffix: str) -> Floats:
-        """The bound of a density or an energy at a scale."""
+        """Bound for a density or an energy at a scale."""
         with np.errstate(divide="ignore"):
             lifted = np.where(self.area > 0, _LIFTED * self.place / self.area, 0.0)
             defect = np.where(self.area > 0, _DEFECT / self.area, 0.0)
@@ -160,7 +160,7 @@ class _Rounding:
 
 @cached
 def _turns(analysis: Result) -> tuple[float, Floats, Floats]:
-    """The last place of the coordinates, and by how much it may turn the faces of each star and pull at its centre."""
+    """Last place of the coordinates, and its largest effect on the faces of each star and on its centre."""
     surface, face_area = analysis.surface, analysis.columns["face_area"]
     place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
     a, longest = surface.faces.ravel(), _longest(analysis)
@@ -172,7 +172,7 @@ def _turns(analysis: Result) -> tuple[float, Floats, Floats]:
 
 @cached
 def _longest(analysis: Result) -> Floats:
-    """(F,) the longest edge of each face."""
+    """(F,) longest edge of each face."""
     surface = analysis.surface
     a, b = (surface.faces.ravel()[corner] for corner in (slice(None), next_corner(np.arange(3 * surface.n_faces))))
     longest: Floats = np.sqrt(sum((x[a] - x[b]) ** 2 for x in surface.xyz)).reshape(-1, 3).max(axis=1)
@@ -181,7 +181,7 @@ def _longest(analysis: Result) -> Floats:
 
 @cached
 def _sigmas(analysis: Result) -> tuple[Floats, Floats]:
-    """The bounds of K and h."""
+    """Bounds of K and h."""
     surface = analysis.surface
     noise = float(np.ldexp(_turns(analysis)[0], surface.unit_exponent)) / np.sqrt(12)
     found = analysis.with_noise(UNCERTAINTIES, noise)

@@ -1,4 +1,4 @@
-"""How a picture looks: from where, how large, on which background; read without any library that draws."""
+"""Options of pictures: view, size and background; independent of the drawing libraries."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Literal
 
 from ...errors import MissingExtraError, UsageError
 
-# From where one looks: azimuth about z from x, and elevation above the xy plane, in degrees.
+# Directions of view: azimuth about z from x, and elevation above the xy plane, in degrees.
 VIEWS = {"iso": (-45.0, math.degrees(math.asin(1 / math.sqrt(3)))), "front": (-90.0, 0.0), "top": (-90.0, 90.0)}
 FIT = "fit"
 SMALLEST, LARGEST = 200, 8192
@@ -21,11 +21,11 @@ _NUMBER = r"[+-]?\d+(?:\.\d*)?"
 
 @dataclass(frozen=True)
 class Look:
-    """The options of pictures.
+    """Options of pictures.
 
     view: `iso`, `front`, `top`, `fit` (along the direction in which the surface is thinnest) or `AZ,EL` in degrees.
-    up: the axis of the file that is upwards. size: pixels, None for what suits the number of panels.
-    background: a colour that matplotlib knows. edges: whether the edges of all faces are drawn.
+    up: the axis of the file that points up. size: pixels, None for a size by the number of panels.
+    background: a colour that matplotlib knows. edges: true to draw the edges of all faces.
     """
 
     view: str = "iso"
@@ -68,9 +68,9 @@ def parse_size(text: str | None) -> tuple[int, int] | None:
 
 
 def check_look(look: Look, panels: int = 1, *, surface: bool = True) -> None:
-    """Refuse, before any work, what cannot be drawn: a missing library, an unknown colour or view, too small a size.
+    """Refuse, before any work, a missing library, an unknown colour or view, or too small a size.
 
-    surface: whether the surface is drawn, not only histograms.
+    surface: true if the surface is drawn, not only histograms.
     Errors: UsageError; MissingExtraError without the libraries that draw.
     """
     require_pictures(surface)
@@ -82,7 +82,7 @@ def check_look(look: Look, panels: int = 1, *, surface: bool = True) -> None:
 def arrange(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) -> tuple[int, int, tuple[int, int]]:
     """Columns and rows for so many panels, and the size of the sheet in pixels.
 
-    Errors: UsageError where the panels would be too small to be read.
+    Errors: UsageError if the panels would be too small to read.
     """
     if size is None:
         columns = next(n for n in range(1, count + 1) if n * n * 4 >= count * 3 or n == count)
@@ -101,7 +101,7 @@ def arrange(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) ->
 
 
 def background_rgb(color: str) -> tuple[float, float, float]:
-    """A colour by name or as #rrggbb, from 0 to 1.
+    """Colour by name or as #rrggbb, from 0 to 1.
 
     Errors: UsageError.
     """
@@ -117,7 +117,7 @@ def background_rgb(color: str) -> tuple[float, float, float]:
 
 
 def require_pictures(surface: bool = True) -> None:
-    """MissingExtraError where the libraries that draw a surface, or only histograms, are not installed."""
+    """Raise MissingExtraError if the libraries that draw a surface, or only histograms, are not installed."""
     if surface:
         _require("pictures need", "pyvista", "matplotlib")
     else:
@@ -125,14 +125,14 @@ def require_pictures(surface: bool = True) -> None:
 
 
 def require_vtk() -> None:
-    """MissingExtraError where the library that writes VTK files is not installed."""
+    """Raise MissingExtraError if the library that writes VTK files is not installed."""
     _require(".vtp and .vtu need", "vtkmodules")
 
 
 def import_apart(*libraries: str) -> None:
-    """Import libraries on a stack of their own.
+    """Import libraries on a separate stack.
 
-    Errors: what the imports raise.
+    Errors: those of the imports.
     """
     with ThreadPoolExecutor(1) as other:
         for name in libraries:

@@ -1,4 +1,4 @@
-"""Histograms of columns: how many vertices, and how much area, have which value."""
+"""Histograms of columns, by number of vertices and by area."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _FEWEST, _MOST = 10, 60
 class Distribution:
     """Shares of the defined values in bins of equal width from `low` to `high`, by number and by area.
 
-    edges: (n + 1,). vertices, area: (n + 2,), the first and the last for what lies below and above.
+    edges: (n + 1,). vertices, area: (n + 2,), the first and the last for values below and above.
     """
 
     edges: NDArray[np.float64]
@@ -40,7 +40,7 @@ class Distribution:
 def distribution(
     values: NDArray[np.float64], areas: NDArray[np.float64], low: float, high: float, bins: int | None = None
 ) -> Distribution:
-    """How the values that are defined are distributed; a single value has one bin. Areas weigh; NaN is left out."""
+    """Distribution of the defined values; a single value has one bin. Areas are weights; NaN is left out."""
     defined = np.isfinite(values)
     values, areas = values[defined], np.nan_to_num(areas[defined])
     if bins is None:
@@ -59,8 +59,8 @@ def write_histograms(
 ) -> None:
     """Write a panel per column as PNG: bars are shares of the vertices, the line shares of their area.
 
-    The range is that of the colours, and the bars have them; what lies beyond it stands in a pale bar at each end.
-    Each vertex weighs the area of its star. Labels have a bar each.
+    The range and the colours are those of the colour map; values beyond it are in a pale bar at each end.
+    Each vertex has the weight of its star's area. Labels have a bar each.
     """
     count = max(1, len(columns))
     across, down, size = arrange(count, look.size, _SINGLE if count == 1 else _PANEL)
@@ -103,13 +103,13 @@ def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Result, box: B
     low, high, bins = scale.low, scale.high, None
     values = scale.settled(values)
     if one.quantity.kind == "count" and high - low < _MOST:
-        # A bin for each number, in the middle of it.
+        # Each number has a bin with the number in the middle.
         low, high = math.floor(low) - 0.5, math.ceil(high) + 0.5
         bins = round(high - low)
     found = distribution(values, areas, low, high, bins)
     bins = len(found.edges) - 1
     axes = sheet.axes(box)
-    # In bins, not in values, whose differences may be more than a double holds; outside stand the values that are cut.
+    # Positions in bins, since differences of values may overflow; values beyond the range are outside.
     at = np.array([-1.0, *range(bins), bins + 0.5])
     middle = np.rint((np.arange(bins) + 0.5) / bins * (len(scale.gradient) - 1)).astype(int)
     colors = [sheet.pale, *(scale.gradient[middle] / 255), sheet.pale]
@@ -149,7 +149,7 @@ def _labels(sheet: Sheet, one: Colored, areas: Shares, analysis: Result, box: Bo
 
 
 def _finish(sheet: Sheet, axes: Any, tall: float, font: float) -> None:
-    """Shares in per cent, few ticks, quiet lines."""
+    """Format the axes: shares in per cent, few ticks, thin lines."""
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     axes.set_facecolor("none")

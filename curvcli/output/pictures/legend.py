@@ -1,4 +1,4 @@
-"""What a picture says of a column in words: its unit, the ends of its range, and what they cut."""
+"""Legend texts of a column: its unit, the ends of its range, and the values beyond them."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ _BOLD = str.maketrans("", "", "*")
 
 @dataclass(frozen=True)
 class Colored:
-    """A column with its colours: what one panel of a picture shows."""
+    """Column with its colours, for one panel of a picture."""
 
     name: str
     quantity: Quantity
     scale: ColorScale
 
     def unit(self, length: str | None) -> str:
-        """The unit with raised exponents, empty for a pure number or labels."""
+        """Unit with raised exponents, empty for a pure number or labels."""
         exponent = self.quantity.length_exponent
         if exponent == 0:
             return ""
@@ -36,7 +36,7 @@ class Colored:
 
     @property
     def symbol(self) -> str:
-        """The symbol, empty where it is just the name."""
+        """Symbol, empty if it equals the name."""
         symbol = self.quantity.symbol.translate(_BOLD)
         if self.quantity.vector:
             symbol = f"{self.name[-1]} of {symbol}"
@@ -44,12 +44,12 @@ class Colored:
 
 
 def raised(number: int) -> str:
-    """An integer as an exponent."""
+    """Integer as an exponent."""
     return str(number).translate(_RAISED)
 
 
 def number(value: float, digits: int = 4) -> str:
-    """A number for people, with a minus sign and a power of ten where it is large or small."""
+    """Number for people, with a minus sign and a power of ten where it is large or small."""
     text = f"{value:.{digits}g}"
     mantissa, e, power = text.partition("e")
     if e:
@@ -58,7 +58,7 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def range_words(value_range: str | None, signed: bool) -> str:
-    """How the ends of a colour map were chosen."""
+    """Rule that chose the ends of a colour map."""
     low, _, central = parse_range(value_range)
     if low is not None:
         return "range as asked"
@@ -69,7 +69,7 @@ def range_words(value_range: str | None, signed: bool) -> str:
 
 
 def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> str:
-    """The range of a column's colours, how it was chosen, and how many values lie outside it."""
+    """Range of a column's colours, the rule that chose it, and the number of values outside it."""
     if scale.low is None or scale.high is None:
         return "undefined at every vertex"
     behind = f" {unit}" if unit else ""
@@ -80,14 +80,14 @@ def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> st
         return f"{number(scale.low)}{behind}{of} wherever defined"
     digits = next((d for d in range(4, 17) if number(scale.low, d) != number(scale.high, d)), 17)
     ends = f"{number(scale.low, digits)} to {number(scale.high, digits)}{behind}"
-    # Percentiles cut something, unless they would tell values apart by their rounding: then the range is that of all.
+    # Percentiles cut off values, unless the values differ by rounding only: then the range has all of them.
     words = range_words(value_range, scale.signed) if cut or value_range is not None else "all values"
     settled = "" if scale.rounded is None else f", {int(scale.rounded.sum()):,} are 0 within rounding"
     return f"{ends} ({words}), cuts {' and '.join(cut) or 'nothing'}{settled}"
 
 
 def sentence(colored: Colored, value_range: str | None, length: str | None) -> str:
-    """One line for the terminal: the range of a column, how it was chosen, and what it leaves out."""
+    """One line for the terminal: the range of a column, the rule that chose it, and the values outside it."""
     scale = colored.scale
     if scale.categories:
         return f"{colored.name}: " + ", ".join(f"{one.count:,} {one.name}" for one in scale.categories)
@@ -96,13 +96,13 @@ def sentence(colored: Colored, value_range: str | None, length: str | None) -> s
 
 
 def mesh_name(analysis: Result) -> str:
-    """The name of the mesh's file without its folder."""
+    """Name of the mesh's file without its folder."""
     file = analysis.surface.file
     return os.path.basename(file.path) if file is not None and file.path not in (None, "-") else "mesh"
 
 
 def about(analysis: Result, columns: Sequence[Colored]) -> list[str]:
-    """The mesh, and the conventions that the columns shown depend on."""
+    """Mesh, and conventions that the columns shown depend on."""
     surface = analysis.surface
     vertices = counted(int(surface.referenced.sum()), "vertex", "vertices")
     shape = f"{mesh_name(analysis)}: {vertices}, {counted(surface.n_faces, 'face')}"
@@ -110,7 +110,7 @@ def about(analysis: Result, columns: Sequence[Colored]) -> list[str]:
 
 
 def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
-    """The choices that the columns shown depend on."""
+    """Conventions that the columns shown depend on."""
     chosen = analysis.conventions
     told = []
     if any(quantity.mean_degree for quantity in quantities):
@@ -125,9 +125,9 @@ def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
 
 
 def ticks(low: float, high: float, room: int, whole: bool = False) -> tuple[list[float], list[str], int]:
-    """Places and labels of about `room` ticks from low to high, in units of 10 to the power that comes third.
+    """Positions and labels of about `room` ticks from low to high, in units of 10 to the power that comes third.
 
-    whole: only at whole numbers, which are written out.
+    whole: only at whole numbers, written in full.
     """
     from matplotlib.ticker import MaxNLocator
 

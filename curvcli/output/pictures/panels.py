@@ -1,4 +1,4 @@
-"""What every panel of a picture or a sheet of histograms has: a title, a colour bar, a legend."""
+"""Title, colour bar and legend of the panels of pictures and histograms."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .sheet import Box, Color, Item, Sheet
 def draw_title(
     sheet: Sheet, one: Colored, length: str | None, place: tuple[float, float], font: float, room: float
 ) -> None:
-    """Name, symbol and unit of a column, as large as the room allows; the unit has the power of ten of the ticks."""
+    """Draw name, symbol and unit of a column, as large as fits; the unit has the power of ten of the ticks."""
     scale = one.scale
     power = ticks(scale.low, scale.high, 5)[2] if scale.low is not None and scale.high is not None else 0
     unit = " ".join(part for part in (f"10{raised(power)}" if power else "", one.unit(length)) if part)
@@ -23,7 +23,7 @@ def draw_title(
 
 
 def draw_bar(sheet: Sheet, one: Colored, box: Box, font: float) -> None:
-    """The colour bar with its ticks; a point at an end tells that values beyond it are cut."""
+    """Draw the colour bar with its ticks; a pointed end marks values beyond it."""
     scale, (left, top, width, height) = one.scale, box
     assert scale.low is not None
     assert scale.high is not None
@@ -50,7 +50,7 @@ def draw_bar(sheet: Sheet, one: Colored, box: Box, font: float) -> None:
 
 
 def legend(one: Colored, value_range: str | None) -> list[Item]:
-    """The range of a column and what it cuts, the undefined vertices, or the labels."""
+    """Entries of the legend: range and values outside it, undefined vertices, or labels."""
     scale = one.scale
     if scale.categories:
         return [Item(f"{c.name} {c.count:,}", "square", shares(c.color)) for c in scale.categories]
@@ -61,5 +61,5 @@ def legend(one: Colored, value_range: str | None) -> list[Item]:
 
 
 def shares(color: tuple[int, int, int]) -> Color:
-    """A colour of bytes as one from 0 to 1."""
+    """Colour from bytes to 0 … 1."""
     return color[0] / 255, color[1] / 255, color[2] / 255

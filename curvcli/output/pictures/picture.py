@@ -1,4 +1,4 @@
-"""The picture of a surface: a panel per column, each with its colour bar, what that cuts, and what is undefined."""
+"""Picture of a surface: a panel per column, each with its colour bar and legend."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _PLAIN = (200, 200, 200)
 def write_picture(
     stream: BinaryIO, analysis: Result, columns: Sequence[Colored], look: Look, value_range: str | None
 ) -> None:
-    """Write the surface as PNG, coloured by each of the columns; in plain grey if there are none.
+    """Write the surface as PNG, coloured by each of the columns; grey if there are none.
 
     Boundary edges and edges of more than two faces are drawn as lines; undefined values are grey.
     Errors: MissingExtraError where the system cannot draw.
@@ -78,7 +78,7 @@ def write_picture(
 
 
 class _Page:
-    """Where everything stands on the sheet, and the words on it."""
+    """Layout of the sheet, with its texts."""
 
     def __init__(
         self,
@@ -111,7 +111,7 @@ class _Page:
         self.picture = inner, max(16, int(self.panel[1] - self.above - below - 0.4 * font))
 
     def cut(self, one: Colored) -> bool:
-        """Whether a column is painted in the cells of its vertices: a density of stars on a creased mesh."""
+        """True if a column is painted in the cells of its vertices: a density of stars on a creased mesh."""
         return self.creased and one.quantity.name in STARS and one.scale.low is not None
 
     def flat(self, one: Colored) -> tuple[int, int, int]:

@@ -114,12 +114,12 @@ def _add_lines(plotter: Any, pv: Any, positions: NDArray[np.float64], lines: Lin
 
 
 def _floats(color: Color) -> list[float]:
-    """A colour that is taken for one from 0 to 1, not for bytes."""
+    """Colour from 0 to 1, in a form that VTK does not read as bytes."""
     return [float(part) for part in color]
 
 
 def _light(plotter: Any, pv: Any) -> None:
-    """From the viewer and from above to the left; a face seen from the front has just its own colour."""
+    """Light from the viewer and from above to the left; a face seen from the front has exactly its colour."""
     for position, intensity in (((0, 0, 1), 0.5), ((-1.2, 1.6, 2.0), 0.68)):
         light = pv.Light(position=position, focal_point=(0, 0, 0), light_type="scene light", intensity=intensity)
         light.positional = False
@@ -136,7 +136,7 @@ def _look(plotter: Any, positions: NDArray[np.float64], size: tuple[int, int]) -
 
 
 def _coarser(pixels: Pixels, finer: int) -> Pixels:
-    """The mean of each square of `finer` by `finer` pixels."""
+    """Mean of each square of `finer` by `finer` pixels."""
     height, width, _ = pixels.shape
     blocks = pixels.reshape(height // finer, finer, width // finer, finer, 3)
     means: Pixels = np.rint(blocks.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
@@ -144,7 +144,7 @@ def _coarser(pixels: Pixels, finer: int) -> Pixels:
 
 
 def require_opengl() -> None:
-    """Refuse where VTK would draw with a library that is not there, and be killed by the system for it.
+    """Refuse to draw without the OpenGL library: VTK would crash.
 
     Errors: MissingExtraError.
     """
@@ -152,7 +152,7 @@ def require_opengl() -> None:
     from vtkmodules.vtkCommonCore import vtkLogger, vtkObject
     from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
-    # That there is no display, which VTK looks for first, is no news.
+    # VTK first tests for a display and warns that there is none; the warning is suppressed.
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     vtkObject.GlobalWarningDisplayOff()
     if "OSOpenGL" not in vtkRenderWindow().GetClassName() or any(map(_loads, _MESA)):

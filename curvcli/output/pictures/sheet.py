@@ -1,4 +1,4 @@
-"""A sheet of pixels: texts, patches and images placed exactly, so that nothing is cut off and nothing overlaps."""
+"""Sheet of pixels: texts, patches and images at exact positions, so that they are not cut off and do not overlap."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LINE = 1.4  # line height over font size
 
 @dataclass(frozen=True)
 class Item:
-    """An entry of a legend: a text behind a square or a line of a colour, or by itself."""
+    """Entry of a legend: a text, alone or behind a square or a line of a colour."""
 
     text: str
     mark: str = ""  # "", "square" or "line"
@@ -32,7 +32,7 @@ class Item:
 
 
 class Sheet:
-    """A matplotlib figure of so many pixels, drawn on from the upper left corner."""
+    """Matplotlib figure of so many pixels, drawn on from the upper left corner."""
 
     def __init__(self, size: tuple[int, int], background: str) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -48,13 +48,13 @@ class Sheet:
         self.canvas: Any = FigureCanvasAgg(self.figure)
 
     def font(self, width: float, height: float) -> float:
-        """A font size in pixels that suits a panel."""
+        """Font size in pixels that suits a panel."""
         return min(max(min(width / 42, height / 32), _SMALLEST_FONT), _LARGEST_FONT)
 
     def text(
         self, x: float, y: float, text: str, size: float, *, color: Color | None = None, bold: bool = False
     ) -> None:
-        """One line whose middle is at height y."""
+        """Draw one line of text whose middle is at height y."""
         self.figure.text(
             x / self.width,
             1 - y / self.height,
@@ -69,10 +69,10 @@ class Sheet:
         )
 
     def measure(self, text: str, size: float, bold: bool = False) -> float:
-        """The width of a text in pixels."""
+        """Width of a text in pixels."""
         from matplotlib.font_manager import FontProperties
 
-        # By the renderer itself: hinting makes small text wider than its outlines.
+        # Measured by the renderer: hinting makes small text wider than its outlines.
         font = FontProperties(family=_FONT, size=size * 0.72, weight="bold" if bold else "normal")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -80,7 +80,7 @@ class Sheet:
         return width
 
     def rectangle(self, box: Box, color: Color) -> None:
-        """A filled rectangle."""
+        """Draw a filled rectangle."""
         from matplotlib.patches import Rectangle
 
         left, top, width, height = box
@@ -92,7 +92,7 @@ class Sheet:
         )
 
     def triangle(self, corners: NDArray[np.float64], color: Color) -> None:
-        """A filled polygon; corners (n, 2) in pixels."""
+        """Draw a filled polygon; corners (n, 2) in pixels."""
         from matplotlib.patches import Polygon
 
         at = corners / [self.width, self.height]
@@ -100,7 +100,7 @@ class Sheet:
         self.figure.patches.append(Polygon(at, transform=self.figure.transFigure, facecolor=color, linewidth=0))
 
     def image(self, pixels: NDArray[np.uint8], left: int, top: int) -> None:
-        """An image at its own size."""
+        """Draw an image at its own size."""
         self.figure.figimage(pixels, left, self.height - top - pixels.shape[0], origin="upper")
 
     def axes(self, box: Box) -> Any:
@@ -115,7 +115,7 @@ class Sheet:
         return self.figure.add_axes(place)
 
     def png(self, about: Mapping[str, str]) -> bytes:
-        """The sheet as PNG with texts about it; a character that no font has is shown as a box, not said."""
+        """Sheet as PNG with text metadata; a character that no font has is drawn as a box, without a warning."""
         stream = io.BytesIO()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -125,7 +125,7 @@ class Sheet:
     # ------------------------------------------------------------------ legends
 
     def flow(self, items: Iterable[Item], width: float, size: float) -> list[list[tuple[float, Item]]]:
-        """Entries one after the other in lines of at most this width, each with its place."""
+        """Lay out entries in lines of at most this width, each with its position."""
         lines: list[list[tuple[float, Item]]] = [[]]
         at = 0.0
         for item in items:
@@ -139,7 +139,7 @@ class Sheet:
         return [line for line in lines if line]
 
     def draw(self, lines: Iterable[list[tuple[float, Item]]], left: float, top: float, size: float) -> None:
-        """Draw what `flow` laid out."""
+        """Draw the lines of `flow`."""
         for row, line in enumerate(lines):
             middle = top + (row + 0.5) * LINE * size
             for at, item in line:
@@ -157,7 +157,7 @@ class Sheet:
         return self._mark(item, size) + self.measure(item.text, size)
 
     def _parts(self, item: Item, width: float, size: float) -> Iterator[Item]:
-        """The entry, cut between words, or within a word, where it is too long for a line."""
+        """Entry, split between words, or within a word, where it is too long for a line."""
         text = item.text
         while text and self._needs(Item(text, item.mark), size) > width:
             less, more = 1, len(text)

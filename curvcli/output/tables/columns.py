@@ -1,4 +1,4 @@
-"""The tables of an analysis as named columns, in the order of the interface."""
+"""Tables of an analysis as named columns, in the order of the interface."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 Table = dict[str, Any]
 
-# Rows that are handed to polars at a time, which copies them; a group of rows in Parquet.
+# Rows per block given to polars, which copies them; a row group in Parquet.
 ROWS_IN_A_FRAME = 1 << 18
 
 
 def vertex_properties(analysis: Result) -> Table:
-    """The computed vertex columns, vectors by component; masked, NaN or -1 where undefined, as in merged rows."""
+    """Computed vertex columns, vectors by component; masked, NaN or -1 where undefined, as in merged rows."""
     surface = analysis.surface
     loose = ~surface.referenced
     welded = surface.file.welded_to if surface.file is not None else None
@@ -48,7 +48,7 @@ def vertex_table(analysis: Result) -> Table:
     surface = analysis.surface
     table: Table = {"vertex": np.arange(surface.n_vertices, dtype=np.int32)}
     xyz = surface.xyz_given
-    # Only a vertex that no face uses may have coordinates that are no numbers.
+    # Only a vertex that no face uses may have coordinates that are not finite.
     table |= dict(zip("xyz", xyz if surface.referenced.all() else np.where(np.isfinite(xyz), xyz, np.nan), strict=True))
     computed = vertex_properties(analysis)
     if "status" in computed:
@@ -112,7 +112,7 @@ def loop_table(analysis: Result) -> Table:
 
 
 def _piece_columns(pieces: list[Piece]) -> Table:
-    """The values of pieces under the report's last keys; what there is and its types follow from what was computed."""
+    """Values of pieces under the last part of the report's keys; columns and types follow from the computed values."""
     import msgspec
 
     table: Table = {}
@@ -132,7 +132,7 @@ def _piece_columns(pieces: list[Piece]) -> Table:
 
 
 def _declared(name: str, values: list[Any], declared: Any) -> Table:
-    """The column of a key of the report, or its columns, in the type that is declared of it."""
+    """Column of a key of the report, or its columns, in the declared type."""
     from ...report.model import POWERS, Coefficients
 
     if declared in (bool, int):

@@ -1,4 +1,4 @@
-"""Columns to a table file: text that reads back to the same doubles, empty cells where nothing is defined."""
+"""Table writers: text that reads back to the same doubles, empty cells for undefined values."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ Column: TypeAlias = NDArray[Any] | Labels
 
 SHORTEST = "shortest"
 _SEPARATORS = {".csv": ",", ".tsv": "\t"}
-# Characters that all names in a column of text may have, and in each row on average besides.
+# Limit on the characters of all names in a column of text, and of each row on average.
 _NAMES, _NAME = 1 << 24, 256
-# Rows that polars formats at a time: 4 times faster than its default of 1024, still small beside the table.
+# Rows that polars formats at a time: 4 times faster than its default of 1024, and small beside the table.
 _ROWS_AT_A_TIME = 8192
 
 
@@ -45,9 +45,9 @@ def write_table(
 
     columns: float64 (NaN is null), integers, booleans, masked integers (masked is null), or Labels (-1 is null).
     precision: of the text formats; `shortest` reads back to the same double, N rounds to N significant digits.
-    stop: ends the writing of text and Parquet half-way once another thread has set it.
+    stop: ends the writing of text and Parquet early once another thread has set it.
     Null is an empty cell in text, null in Parquet, and NaN in npz, where Labels become codes and `NAME_names`.
-    Words that a spreadsheet would compute stand behind an apostrophe in text, see `in_cell`.
+    Words that a spreadsheet would compute get an apostrophe in text, see `in_cell`.
     Errors: UsageError for a precision outside 1..17.
     """
     if suffix == ".npz":
@@ -61,17 +61,17 @@ def write_table(
         else:
             _write_text(_regular(stream) or relay, columns, _SEPARATORS[suffix], digits, stop)
     except Exception as error:
-        # polars words the failure of a stream in its own way; what the stream or the system raised says more.
+        # polars rewords the error of a stream; the original error of the stream or the system says more.
         if relay.failure is not None:
             raise relay.failure from None
         number = re.search(r"\(os error (\d+)\)$", str(error))
-        if number and os.name == "posix":  # elsewhere its numbers are not those of errno
+        if number and os.name == "posix":  # on other systems the numbers are not errno
             raise OSError(int(number[1]), os.strerror(int(number[1]))) from None
         raise
 
 
 def _regular(stream: BinaryIO) -> io.FileIO | None:
-    """The file behind a stream, which polars writes to without copies that pass through the interpreter."""
+    """File behind a stream: polars writes to it without copies through the interpreter."""
     raw = getattr(stream, "raw", None)
     if not isinstance(raw, io.FileIO) or not stat.S_ISREG(os.fstat(raw.fileno()).st_mode):
         return None
@@ -96,7 +96,7 @@ def _write_text(
 
 
 def _for_spreadsheets(columns: Mapping[str, Column]) -> Mapping[str, Column]:
-    """The columns with words and headers that no spreadsheet takes for formulas."""
+    """Columns with words and headers that no spreadsheet takes for formulas."""
     heads = fitting(columns, escape_cell)
     return {heads[name]: _in_cells(column) for name, column in columns.items()}
 
@@ -106,7 +106,7 @@ def _in_cells(column: Column) -> Column:
 
 
 def _text(frame: pl.DataFrame, separator: str, digits: int | None, header: bool) -> bytes:
-    """What polars writes of a frame, without its threads."""
+    """Text of a frame as polars writes it, made without its threads."""
     special = re.compile(f'["\r\n{separator}]|^$')
 
     def quoted(word: str | None) -> str | None:
@@ -124,7 +124,7 @@ def _text(frame: pl.DataFrame, separator: str, digits: int | None, header: bool)
 
 
 def _check_names(columns: Mapping[str, Column]) -> None:
-    """Errors: InputError for names so long that a text with one in each row is out of proportion to the mesh."""
+    """Errors: InputError for names so long that a text column of them is out of proportion to the mesh."""
     for name, column in columns.items():
         if isinstance(column, Labels) and column.names:
             lengths = np.array([len(word) for word in column.names])
@@ -157,7 +157,7 @@ def _length(columns: Mapping[str, Column]) -> int:
 
 
 def _frames(columns: Mapping[str, Column]) -> Iterator[pl.DataFrame]:
-    """The table in pieces, since polars copies what it is given; at least one, however short."""
+    """Table in blocks, since polars copies its input; at least one, however short."""
     for start in range(0, max(_length(columns), 1), ROWS_IN_A_FRAME):
         rows = slice(start, start + ROWS_IN_A_FRAME)
         yield pl.DataFrame([_series(name, _rows(column, rows)) for name, column in columns.items()])
@@ -168,7 +168,7 @@ def _rows(column: Column, rows: slice) -> Column:
 
 
 def parse_precision(precision: str | int) -> int | None:
-    """The number of significant digits meant by `--precision`, None for the shortest exact text."""
+    """Number of significant digits of `--precision`, None for the shortest exact text."""
     if precision == SHORTEST:
         return None
     try:
@@ -181,7 +181,7 @@ def parse_precision(precision: str | int) -> int | None:
 
 
 class _Relay(io.RawIOBase):
-    """Hands bytes on and remembers what went wrong, which polars would turn into words of its own."""
+    """Pass bytes on and keep the error of the stream, which polars would reword."""
 
     def __init__(self, stream: BinaryIO, stop: Event | None):
         self.stream, self.stop = stream, stop
@@ -200,11 +200,11 @@ class _Relay(io.RawIOBase):
             raise
 
     def flush(self) -> None:
-        """The stream's owner flushes it."""
+        """Do nothing: the stream's owner flushes it."""
 
 
 def _series(name: str, column: Column) -> pl.Series:
-    """The column for polars; what is null is told by a mask beside the values."""
+    """Column for polars; a mask beside the values marks nulls."""
     if isinstance(column, Labels):
         unique = len(set(column.names)) == len(column.names)
         names = pl.Series(name, column.names, dtype=pl.Enum(column.names) if unique else pl.String)
@@ -219,7 +219,7 @@ def _series(name: str, column: Column) -> pl.Series:
 
 
 def _rounded(frame: pl.DataFrame, digits: int) -> list[pl.Series]:
-    """The float columns at `digits` significant digits, rounded in decimal and so written without a long tail."""
+    """Float columns at `digits` significant digits, rounded in decimal and so written without a long tail."""
     rounded = []
     for series in frame.iter_columns():
         if series.dtype != pl.Float64:
@@ -228,7 +228,7 @@ def _rounded(frame: pl.DataFrame, digits: int) -> list[pl.Series]:
         full = series.fill_null(0.0).to_frame()
         full.write_csv(text, include_header=False, float_scientific=True, float_precision=digits - 1)
         near = pl.read_csv(text.getvalue(), has_header=False, schema={series.name: pl.Float64})[series.name]
-        # The largest doubles may round past the range; they stay as they are.
+        # The largest doubles may round to infinity; they stay unchanged.
         near = near.zip_with(near.is_finite(), full[series.name])
         rounded.append(near.set(series.is_null(), None))
     return rounded
@@ -248,8 +248,8 @@ def _write_npz(stream: BinaryIO, columns: Mapping[str, Column]) -> None:
 
 
 def _names(column: str, names: tuple[str, ...]) -> NDArray[np.str_]:
-    """The names as one unicode array, refused where one long name would make all of them long."""
+    """Names as one unicode array; an error where one long name would make all of them long."""
     longest = max(map(len, names), default=0)
     if longest * len(names) > 2**20 + 8 * sum(map(len, names)):
-        raise OutputError(f"{column}: a name of {longest} characters does not fit an .npz table; .parquet holds it")
+        raise OutputError(f"{column}: a name of {longest} characters does not fit an .npz table; write .parquet")
     return np.array(names, dtype=np.str_)
