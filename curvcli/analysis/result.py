@@ -170,7 +170,7 @@ class Result:
     @cached_property
     def totals(self) -> dict[str, float | list[float] | None]:
         """Totals of the whole surface by the report's keys; None where undefined."""
-        return {key: plain(values[0]) for key, values in self.totals_of(self.surface.whole).items()}
+        return {key: or_null(values[0]) for key, values in self.totals_of(self.surface.whole).items()}
 
     @cached_property
     def checks(self) -> list[Check]:
@@ -223,10 +223,10 @@ class Result:
         return found
 
 
-def plain(value: Any) -> Any:
+def or_null(value: Any) -> Any:
     """A number or a vector for JSON, None where undefined."""
     if np.ndim(value):
-        return [plain(x) for x in value] if np.isfinite(value).any() else None
+        return [or_null(x) for x in value] if np.isfinite(value).any() else None
     return or_none(float(value))
 
 

@@ -96,7 +96,7 @@ def _expand_url(pattern: str) -> list[str]:
         found = [name for name in names if not name.endswith("/")]
         return sorted(str(files.unstrip_protocol(name)) for name in found if _is_file(files, name))
     except Exception as error:
-        raise InputError(f"cannot be listed ({_told(error)})", path=escape_text(pattern)) from error
+        raise InputError(f"cannot be listed ({_reason(error)})", path=escape_text(pattern)) from error
 
 
 def _is_file(files: Any, name: str) -> bool:
@@ -120,8 +120,8 @@ def read_url(place: str, max_bytes: int | None) -> bytes:
             cause = error.__cause__
             if cause is None or isinstance(cause, FileNotFoundError) or getattr(cause, "status", None) == _NOT_FOUND:
                 raise InputError("no such file") from None
-            raise InputError(f"the file cannot be read ({_told(cause)})") from None
-        raise InputError(f"the file cannot be read ({_told(error)})") from None
+            raise InputError(f"the file cannot be read ({_reason(cause)})") from None
+        raise InputError(f"the file cannot be read ({_reason(error)})") from None
 
 
 def _file_system(place: str) -> tuple[Any, str]:
@@ -133,13 +133,13 @@ def _file_system(place: str) -> tuple[Any, str]:
         found: tuple[Any, str] = url_to_fs(place)
     except ImportError as error:
         install = "pip install 'curvcli[remote]'"
-        raise MissingExtraError(f"{escape_text(place)}: {_told(error)}; `{install}` reads http and s3") from None
+        raise MissingExtraError(f"{escape_text(place)}: {_reason(error)}; `{install}` reads http and s3") from None
     except Exception as error:
-        raise UsageError(f"{escape_text(place)}: {_told(error)}") from None
+        raise UsageError(f"{escape_text(place)}: {_reason(error)}") from None
     return found
 
 
-def _told(error: BaseException) -> str:
+def _reason(error: BaseException) -> str:
     return escape_text(" ".join((str(error) or type(error).__name__).split()))
 
 

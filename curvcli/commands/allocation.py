@@ -1,4 +1,4 @@
-"""How the process of a command keeps its memory; a library must not decide this for its program."""
+"""Memory allocation of the process of a command; a library must not decide this for its program."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from . import options
 from .bounds import bounded
 from .configured import configuration
 from .meshes import each_mesh, input_of
-from .outputs import one_stdout, stdin_once, table_option, tell
+from .outputs import one_stdout, print_report, stdin_once, table_option
 from .stems import stem
 from .talk import put, say
 
@@ -153,10 +153,10 @@ class Run:
 
     def done(self, number: int, outputs: Outputs) -> tuple[Report | None, int]:
         """Analyse one mesh, then free the analysis; return its report, if it is printed later, and the exit code."""
-        analysis = self.one(self.meshes[number], self.paths[number], self.tables[number], outputs)
-        return self.tell(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
+        analysis = self.analyze_mesh(self.meshes[number], self.paths[number], self.tables[number], outputs)
+        return self.print_result(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
 
-    def one(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Result:
+    def analyze_mesh(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Result:
         """Load, compute, write."""
         from ..analysis.request import Request
         from ..analysis.result import Result, compute
@@ -175,7 +175,7 @@ class Run:
         analysis.timings |= {"read": reading.seconds, "compute": computing.seconds}
 
         def check() -> None:
-            if not self.somebody_asks(paths):
+            if not self.needs_checks(paths):
                 return
             from ..report.build import model
 
@@ -199,7 +199,7 @@ class Run:
                 say(line)
         return analysis
 
-    def somebody_asks(self, paths: list[str]) -> bool:
+    def needs_checks(self, paths: list[str]) -> bool:
         """True if an output, the summary or the exit code depends on the checks."""
         from ..output.formats import format_of
 
@@ -208,7 +208,7 @@ class Run:
         kinds = {format_of(path, name=name if path == "-" else None).kind for path in paths}
         return said or not kinds <= {"table", "mesh", "picture"}
 
-    def tell(self, analysis: Result) -> Report | None:
+    def print_result(self, analysis: Result) -> Report | None:
         """Print one analysis on stdout; return its report if it is printed later."""
         from ..report.build import build, model
 
@@ -219,7 +219,7 @@ class Run:
 
         if self.as_json:
             return model(analysis)
-        tell(partial(build, analysis), summary, False, self.get, self.quiet or self.to_stdout)
+        print_report(partial(build, analysis), summary, False, self.get, self.quiet or self.to_stdout)
         return None
 
 

@@ -132,7 +132,7 @@ def run(
                 workers.close()
                 batch.finish()
                 if not quiet:
-                    _tell(batch, len(todo))
+                    _print_summary(batch, len(todo))
     return worst([row.exit_code for row in batch.rows])
 
 
@@ -210,7 +210,7 @@ def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> No
             progress.update(bar, advance=1, rate=f"{speed:.1f}/s" if speed else "")
 
 
-def _tell(batch: Batch, begun: int) -> None:
+def _print_summary(batch: Batch, begun: int) -> None:
     """Print on stdout the number of meshes per status."""
     from rich import box
     from rich.table import Table

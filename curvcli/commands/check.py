@@ -128,7 +128,7 @@ class Run:
             else:
                 with outputs.open(self.output) as stream:
                     stream.write(self.written(report))
-                self.tell(report)
+                self.print_failures(report)
         return report.exit_code
 
     def judged(self, mesh: str) -> CheckedMesh:
@@ -165,7 +165,7 @@ class Run:
         """The report as bytes in the chosen format."""
         return _writer(self.format, self.verbose)(report)
 
-    def tell(self, report: CheckReport) -> None:
+    def print_failures(self, report: CheckReport) -> None:
         """Print failures and warnings on stderr while the report goes to a file."""
         from ..report.check.lines import all_failures, warning, warnings
 

@@ -14,7 +14,7 @@ from . import options
 from .bounds import bounded
 from .configured import configuration
 from .meshes import input_of
-from .outputs import one_stdout, tables_and_reports, tell
+from .outputs import one_stdout, print_report, tables_and_reports
 
 if TYPE_CHECKING:
     from ..analysis.maps import SurfaceMap
@@ -171,7 +171,7 @@ def compare_map(
         for one in wanted:
             with files.open(one.path) as stream:
                 _write(stream, found, one.kind, one.suffix, precision)
-        tell(partial(build, found), partial(show, found), as_json, get, quiet or to_stdout)
+        print_report(partial(build, found), partial(show, found), as_json, get, quiet or to_stdout)
     return FAILED_CHECK if any(check.status == "fail" for check in found.checks) else OK
 
 

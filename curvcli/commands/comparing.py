@@ -10,7 +10,7 @@ from ..errors import FAILED_CHECK, OK, UsageError
 from ..loading.limits import parse_weld
 from ..report.compare.values import Difference, Tolerance, compare_reports, selector
 from .against_exact import accuracy, is_exact
-from .outputs import one_stdout, tell
+from .outputs import one_stdout, print_report
 from .sides import Read, both_sides, kind_of, stored_side
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def compare(
                     stream.write(encode(msgspec.to_builtins(found)))
                 else:
                     write_table(stream, table(), one.suffix, precision=precision)
-        tell(partial(msgspec.to_builtins, found), summary, as_json, get, quiet or to_stdout)
+        print_report(partial(msgspec.to_builtins, found), summary, as_json, get, quiet or to_stdout)
     return OK if found.equal else FAILED_CHECK
 
 

@@ -21,7 +21,7 @@ _HARMLESS = {
 }
 
 
-def tell(context: click.Context) -> None:
+def print_configuration(context: click.Context) -> None:
     """Print on stderr the configuration file that applies to a command."""
     path, tables = context.meta.get(META, (None, {}))
     if path is not None:
@@ -30,7 +30,7 @@ def tell(context: click.Context) -> None:
         say(f"configuration: {path}: " + (f"{heading(path, name)} sets {keys}" if keys else f"nothing for {name}"))
 
 
-def blamed(context: click.Context, error: click.UsageError | UsageError) -> click.UsageError | UsageError:
+def with_configuration(context: click.Context, error: click.UsageError | UsageError) -> click.UsageError | UsageError:
     """An error in a command's options, with a note on the options that the file sets."""
     path, tables = context.meta[META]
     name = context.invoked_subcommand or ""

@@ -12,7 +12,7 @@ from ..loading.limits import parse_weld
 from . import options
 from .bounds import bounded
 from .meshes import input_of
-from .outputs import one_stdout, tables_and_reports, tell
+from .outputs import one_stdout, print_report, tables_and_reports
 
 if TYPE_CHECKING:
     from ..curves.measure import CurveMeasures
@@ -116,7 +116,7 @@ def measure(
             with files.open(one.path) as stream:
                 _write(stream, measures, report, one.kind, one.suffix, precision)
         summary = partial(_show, report, verbose)
-        tell(partial(msgspec.to_builtins, report), summary, as_json, get, quiet or to_stdout)
+        print_report(partial(msgspec.to_builtins, report), summary, as_json, get, quiet or to_stdout)
     return FAILED_CHECK if strict and any(check.status == "fail" for check in report.checks) else OK
 
 

@@ -27,7 +27,7 @@ from ..errors import (
 from ..support.memory import NUMPY, is_bounded, is_out_of_memory, require
 from .allocation import keep_memory
 from .config import META, configure
-from .configured import blamed
+from .configured import with_configuration
 from .deferred import defer_imports
 from .names import COMMANDS, COMPLETE, UNCONFIGURED
 from .signals import Ending, Handler
@@ -70,7 +70,7 @@ class LazyGroup(click.Group):
                 # click's parser finds that a value is missing, but its error does not name the command.
                 error.ctx = click.Context(own, parent=ctx, info_name=name)
             if META in ctx.meta:
-                raise blamed(ctx, error) from error
+                raise with_configuration(ctx, error) from error
             raise
 
     def list_commands(self, ctx: click.Context) -> list[str]:

@@ -33,10 +33,10 @@ class Finite(click.FloatRange):
 def _verbosity(context: click.Context, option: click.Parameter, value: int) -> int:
     if value and not context.resilient_parsing:
         from .config import META
-        from .configured import tell
+        from .configured import print_configuration
 
         if META in context.meta:
-            tell(context)
+            print_configuration(context)
     return value
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class OutputSpec:
     """path: `-` is stdout. kind: `report`, or the name of a table. suffix: of its format."""
 
     path: str
@@ -41,7 +41,7 @@ def table_option(text: str, known: Collection[str]) -> tuple[str, str]:
 
 def tables_and_reports(
     outputs: tuple[str, ...], tables: tuple[str, ...], known: Collection[str], stream_format: str | None
-) -> list[Wanted]:
+) -> list[OutputSpec]:
     """Outputs of a command that writes tables and a report; -o writes the table of vertices.
 
     known: the kinds of tables. Errors: UsageError for a suffix or a kind that is not known.
@@ -54,10 +54,10 @@ def tables_and_reports(
     found = []
     for path in outputs:
         one = named(path, "table", "report")
-        found.append(Wanted(path, "vertices" if one.kind == "table" else "report", one.suffix))
+        found.append(OutputSpec(path, "vertices" if one.kind == "table" else "report", one.suffix))
     for text in tables:
         kind, path = table_option(text, known)
-        found.append(Wanted(path, kind, named(path, "table").suffix))
+        found.append(OutputSpec(path, kind, named(path, "table").suffix))
     return found
 
 
@@ -83,7 +83,7 @@ def stdin_once(meshes: Sequence[str]) -> None:
         raise click.UsageError("`-` is given twice, but stdin can be read once only", click.get_current_context())
 
 
-def tell(
+def print_report(
     report: Callable[[], Any], summary: Callable[[], None], as_json: bool, get: tuple[str, ...], quiet: bool
 ) -> None:
     """Print the report as JSON, some values of it, or the summary."""

@@ -117,7 +117,7 @@ def analysed_side(
         analysis = compute(surface, Request(passes=names or ("core",), **settings), Result)
         report = build(analysis)
     sha256 = surface.file.sha256 if surface.file is not None else None
-    cells = {name: _plain(column) for name, column in vertex_table(analysis).items() if name != "vertex"}
+    cells = {name: _as_stored(column) for name, column in vertex_table(analysis).items() if name != "vertex"}
     return Read(Side(path, "mesh", sha256), report, cells), analysis
 
 
@@ -136,7 +136,7 @@ def _check_suffix(path: str) -> None:
         raise InputError(f"{error.problem}, or {stored}", path=path, hint=error.hint) from None
 
 
-def _plain(column: Any) -> Any:
+def _as_stored(column: Any) -> Any:
     """Column in the form of a stored table: floats with NaN for null, or words with None for null."""
     import numpy as np
 

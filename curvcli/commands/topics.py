@@ -80,9 +80,9 @@ def _quantities() -> str:
 
 
 def _estimates() -> str:
-    from ..report.advice import plain
+    from ..report.advice import as_text
 
-    return plain()
+    return as_text()
 
 
 def _schemas() -> str:

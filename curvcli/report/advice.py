@@ -48,7 +48,7 @@ def markdown() -> str:
     return "\n".join([*lines, "", _marked(NOTE), ""])
 
 
-def plain(terminal: int | None = None) -> str:
+def as_text(terminal: int | None = None) -> str:
     """Sentences and table as text; terminal: its width: a narrow one gets the numbers alone in the table."""
     from textwrap import wrap
 

@@ -75,7 +75,7 @@ def model(analysis: Result) -> Report:
 def pieces(analysis: Result, groups: Groups) -> list[Piece]:
     """Topology, totals and further values of each group of a surface."""
     counts = _counts(analysis, groups)
-    totals = {key: _plain(values) for key, values in analysis.totals_of(groups).items()}
+    totals = {key: _json_list(values) for key, values in analysis.totals_of(groups).items()}
     extras = _extras(analysis, groups)
     return [
         Piece(
@@ -115,7 +115,7 @@ def loops(analysis: Result) -> list[dict[str, Any]]:
     from ..curves.loops import loop_table
 
     columns = {
-        key: _plain(column) if column.dtype.kind == "f" else column.tolist()
+        key: _json_list(column) if column.dtype.kind == "f" else column.tolist()
         for key, column in loop_table(analysis.surface).items()
     }
     for stem in ("vector_area", "force", "torque"):
@@ -132,15 +132,15 @@ def _extras(analysis: Result, groups: Groups) -> dict[str, Callable[[int], Any]]
     if columns.keys() >= {"H_vec", "A_vec"}:
         bent = constant_mean_curvature(surface, groups, columns)
         exponents = {"H": -1, "residual_max": 1, "residual_density_max": -1, "H_vec_max": 1, "H_vec_density_max": -1}
-        shown = {key: _plain(surface.in_file_unit(values, exponents[key]) * factor) for key, values in bent.items()}
+        shown = {key: _json_list(surface.in_file_unit(values, exponents[key]) * factor) for key, values in bent.items()}
         found["cmc"] = lambda group: Cmc(**{key: shown[key][group] for key in Cmc.__struct_fields__})
         found["minimal"] = lambda group: Minimal(**{key: shown[key][group] for key in Minimal.__struct_fields__})
     if columns.keys() >= {"H_vec", "star_vector"}:
-        angles = {key: _plain(values) for key, values in competing_normals(surface, groups, columns).items()}
+        angles = {key: _json_list(values) for key, values in competing_normals(surface, groups, columns).items()}
         found["normals"] = lambda group: Normals(angles["angle_max"][group], angles["angle_mean"][group])
     if columns.keys() >= {"face_area", "H_theta", "K", "K_minus"}:
         polynomial = steiner(surface, groups, columns)
-        rows = _plain(polynomial["coefficients"])
+        rows = _json_list(polynomial["coefficients"])
         found["steiner"] = lambda group: Steiner(rows[group], bool(polynomial["convex"][group]))
     return found
 
@@ -197,6 +197,6 @@ def _columns(analysis: Result) -> dict[str, ColumnStatistics]:
     return found
 
 
-def _plain(values: Any) -> list[Any]:
+def _json_list(values: Any) -> list[Any]:
     """Lists for JSON, with None for an undefined number, or a vector with an undefined component."""
     return [vector(map(or_none, row)) if isinstance(row, list) else or_none(row) for row in values.tolist()]

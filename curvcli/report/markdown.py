@@ -10,7 +10,7 @@ from ..checks.base import rules
 from ..support.words import escape_text
 from .model import Report
 from .phrases import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
-from .verdict import proof
+from .verdict import conclusion
 
 _TOPOLOGY = {
     "vertices": "vertices",
@@ -33,7 +33,7 @@ def markdown(report: Report, command: str | None = None) -> str:
         f"**{'FAIL' if failed else 'pass'}** · {verdict(report)} · {shape(report.topology)}",
         "\n".join(_warnings(report)),
         _checks(report),
-        _text(proof(report)),
+        _text(conclusion(report)),
         _text(sentence(report.configuration) or ""),
         _topology(report),
         _folded(
@@ -106,11 +106,11 @@ def _text(text: str) -> str:
     """
     parts = escape_text(text).split("`")
     if len(parts) % 2 == 0:
-        return _plain(text)
-    return "".join(_code(part) if k % 2 else _plain(part) for k, part in enumerate(parts))
+        return _escaped(text)
+    return "".join(_code(part) if k % 2 else _escaped(part) for k, part in enumerate(parts))
 
 
-def _plain(text: str) -> str:
+def _escaped(text: str) -> str:
     escaped = re.sub(r"([\\`*_{}\[\]<>|~&$])", r"\\\1", escape_text(text))
     return re.sub(r"[@#:](?=[\w/])", r"\g<0><!-- -->", escaped)
 

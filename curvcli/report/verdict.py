@@ -5,7 +5,7 @@ from __future__ import annotations
 from .model import CheckRow, Report
 
 
-def proof(report: Report) -> str:
+def conclusion(report: Report) -> str:
     """One or two sentences for people: identities that hold, fail or are not tested, and their limits."""
     failed = [row for row in report.checks if row.status == "fail"]
     if failed:

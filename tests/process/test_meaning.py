@@ -18,7 +18,7 @@ from curvcli.mesh.seams import describe_exact_welding
 from curvcli.mesh.surface import Surface
 from curvcli.mesh.welding import weld_exact
 from curvcli.report.build import model
-from curvcli.report.verdict import proof
+from curvcli.report.verdict import conclusion
 from tests.helpers import meshes
 from tests.helpers.meshes import Mesh
 from tests.process.meshes import HOSTILE, cut_apart, scaled, seam, shifted
@@ -210,7 +210,7 @@ def test_what_welding_would_not_close() -> None:
 
 
 def test_what_is_proved_of_a_sound_mesh() -> None:
-    said = proof(model(analysis(meshes.icosphere())))
+    said = conclusion(model(analysis(meshes.icosphere())))
     assert said.startswith("Gauss–Bonnet certifies ΣK and χ")
     assert "warning" not in said
 
@@ -220,14 +220,14 @@ def test_what_is_proved_of_a_flawed_mesh() -> None:
     turned[20:] = turned[20:, ::-1]
     report = model(analysis(meshes.icosphere().with_faces(turned)))
     assert len(report.warnings) == 1
-    assert "they hold on flawed meshes too: mind the warning above" in proof(report)
+    assert "they hold on flawed meshes too: mind the warning above" in conclusion(report)
     report = model(analysis(cut_apart().with_faces(np.vstack([cut_apart().faces, [[0, 1, 2]]]))))
-    assert f"mind the {len(report.warnings)} warnings above" in proof(report)
+    assert f"mind the {len(report.warnings)} warnings above" in conclusion(report)
     assert len(report.warnings) > 1
 
 
 def test_what_is_proved_where_K_is_undefined() -> None:
-    said = proof(model(analysis(HOSTILE["all at a point"]())))
+    said = conclusion(model(analysis(HOSTILE["all at a point"]())))
     assert said.startswith("Gauss–Bonnet certifies nothing here: the angle defect is undefined at 12 vertices")
 
 
@@ -241,7 +241,7 @@ def test_what_a_failure_means() -> None:
     failed = {(row.name, row.scope) for row in report.checks if row.status == "fail"}
     assert ("gauss_bonnet", "whole") in failed
     assert ("gauss_bonnet", "component 1") in failed
-    said = proof(report)
+    said = conclusion(report)
     assert said.startswith("gauss_bonnet does not hold on component 1")
     assert "certifies" not in said
     assert "do not trust" in said

@@ -79,9 +79,9 @@ KINDS: dict[str, tuple[Callable[[], None], tuple[str, ...]]] = {
 
 @pytest.mark.parametrize("width", [60, 80, 100, 120])
 def test_the_advice_fits(width: int) -> None:
-    lines = advice.plain(width).splitlines()
+    lines = advice.as_text(width).splitlines()
     assert max(map(len, lines)) <= width
-    assert (advice.plain() == advice.plain(width)) == (width == 120)
+    assert (advice.as_text() == advice.as_text(width)) == (width == 120)
     for cells in advice.ROWS:
         (row,) = [line for line in lines if f"{line} ".startswith(f"{cells[0]} ")]
         assert row.endswith(cells[4])

@@ -15,7 +15,7 @@ from ...checks.base import rules
 from ...report.build import model
 from ...report.phrases import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ...report.quantities import unmarked
-from ...report.verdict import holds, proof
+from ...report.verdict import conclusion, holds
 from ...support.words import escape_text
 from ..pictures.camera import frame
 from ..pictures.framing import VIEWS, Look, parse_view
@@ -76,7 +76,7 @@ def page(analysis: Result, appearance: Appearance, colored: tuple[str, ...], com
         title={None: "arrays in memory", "-": "stdin"}.get(report.input.path, report.input.path),
         verdict=verdict(report),
         holds=holds(report),
-        proof=proof(report),
+        proof=conclusion(report),
         configuration=sentence(report.configuration),
         shape=shape(report.topology),
         conventions=conventions(report),

@@ -7,7 +7,7 @@ from typing import Any
 
 from rich.table import Table
 
-from ..advice import plain
+from ..advice import as_text
 from ..quantities import facts, find, public
 from .console import escape, report_console
 from .fitting import fitting, plain_table
@@ -23,7 +23,7 @@ def listing() -> None:
     console = report_console()
     console.print(fitting(console, tables))
     console.print("[dim]+ beyond the core preset; `curvcli passes NAME` explains one[/dim]\n")
-    advice = plain(console.width) if console.is_terminal else plain()
+    advice = as_text(console.width) if console.is_terminal else as_text()
     console.print(escape(advice), soft_wrap=True, end="")
 
 

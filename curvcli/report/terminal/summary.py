@@ -11,7 +11,7 @@ from ...mesh.scale import describe_scales
 from ..build import model
 from ..model import CheckRow, Report
 from ..phrases import failing_first, shape
-from ..verdict import holds, proof
+from ..verdict import conclusion, holds
 from .console import MARKS, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table
 
@@ -41,7 +41,7 @@ def show(analysis: Result, verbose: int = 0) -> None:
         )
     console.print(fitting(console, _checks(report.checks, verbose)))
     failed = not holds(report)
-    console.print(escape(proof(report)), style="red" if failed else "dim", soft_wrap=not console.is_terminal)
+    console.print(escape(conclusion(report)), style="red" if failed else "dim", soft_wrap=not console.is_terminal)
     show_configuration(console, report.configuration)
     console.print(_totals(report))
     if report.regions:
