@@ -21,13 +21,13 @@ from ..errors import Notice
 from ..loading.labels import Regions, cut_along_regions, find_regions, region_notices
 from ..loading.load import as_surface
 from ..mesh.groups import Groups
-from ..mesh.scale import DEFAULTS
+from ..mesh.scale import DEFAULTS, parse_scales
 from ..mesh.surface import Surface
 from ..support.arrays import or_none
 from . import notices as findings
 from .columns import Columns, named
 from .request import Request
-from .resolution import beside, of_stars
+from .resolution import beside, of_stars, unscaled
 from .totals import lost, lost_totals, summed, totals
 
 if TYPE_CHECKING:
@@ -242,4 +242,6 @@ def compute(given: Any, request: Request, kind: type[Kind]) -> Kind:
     surface = as_surface(given, orient=request.orient, weld=request.weld, normals=request.normals)
     labels = request.labels
     checks = request.named_checks
-    return kind(surface, request, None if labels is None else find_regions(surface, labels), checks)
+    result = kind(surface, request, None if labels is None else find_regions(surface, labels), checks)
+    result.extra_notices += unscaled(request.chosen, parse_scales(request.rings, request.radius))
+    return result

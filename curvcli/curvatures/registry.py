@@ -32,16 +32,17 @@ class Pass:
 
     pointwise: whether what it gives at a vertex follows from what its arguments say of it. They are columns and masks
     of vertices then, what it gives are numbers and flags, and the function is called with some vertices at a time.
+    registry: the registry that the pass stands in.
     """
 
     name: str
     compute: Callable[..., Any]
     provides: tuple[Quantity, ...]
     needs: tuple[str, ...]
-    registry: Registry = field(repr=False, compare=False)
     pointwise: bool = False
+    registry: Registry | None = field(default=None, repr=False, compare=False)
 
-    def __reduce__(self) -> tuple[Callable[[Registry, str], Pass], tuple[Registry, str]]:
+    def __reduce__(self) -> tuple[Callable[..., Pass], tuple[Registry | None, str]]:
         """Pickle a pass by its name: its function stands in its module under that name."""
         return getitem, (self.registry, self.name)
 
@@ -51,7 +52,7 @@ class Pass:
         surface: a Surface, a path, a trimesh.Trimesh or a pair (points, faces).
         """
         surface = as_surface(surface)
-        found = evaluate(self.registry, surface, [quantity.name for quantity in self.provides])
+        found = evaluate(self.registry or passes, surface, [quantity.name for quantity in self.provides])
         shown = {q.name: in_file_unit(q, found[q.name], surface) for q in self.provides}
         return shown[self.provides[0].name] if len(shown) == 1 else shown
 
@@ -108,7 +109,8 @@ class Registry(Mapping[str, Pass]):
                 raise UsageError(f"pass {new.name} provides {name}, which exists already")
         if new.name in self._passes:
             raise UsageError(f"a pass {new.name} exists already")
-        new = replace(new, provides=tuple(self._settled(quantity, new.needs) for quantity in new.provides))
+        provides = tuple(self._settled(quantity, new.needs) for quantity in new.provides)
+        new = replace(new, provides=provides, registry=self)
         self._passes[new.name] = new
         self._providers.update({quantity.name: new for quantity in new.provides})
         return new
@@ -201,7 +203,7 @@ def curvature_pass(
         text = inspect.cleandoc(function.__doc__ or "")
         quantities = provides or (Quantity(name, **declaration),)
         quantities = tuple(q if q.description else replace(q, description=text) for q in quantities)
-        new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters), passes, pointwise)
+        new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters), pointwise)
         return passes.add(new)
 
     return register

@@ -12,6 +12,8 @@ import pytest
 import curvcli
 from curvcli.api import Analysis
 from curvcli.checks.requirements import parse
+from curvcli.curvatures.catalogue import loaded
+from curvcli.curvatures.engine import evaluate
 from curvcli.report.compare.stored import decode
 from curvcli.report.compare.values import Tolerance, compare_reports
 from curvcli.samples.catalogue import specs
@@ -43,7 +45,10 @@ def analysis(name: str, size: int, unit: float) -> Analysis:
 
 
 def problem(found: Analysis, requirement: str) -> str:
-    return parse([requirement])[0].problem(found)
+    one = parse([requirement])[0]
+    needs = set(one.kind.needs) - {"mean"}
+    given = {**evaluate(loaded(), found.surface, needs, known=found.columns), "mean": found.request.mean}
+    return one.problem(found.surface, given)
 
 
 def of(body: Mesh) -> Analysis:

@@ -146,8 +146,8 @@ def test_70_a_defect_of_the_program(bad: Path) -> None:
 def test_130_the_run_is_interrupted(tmp_path: Path) -> None:
     program = """
 import os, signal
-from curvcli.loading import surfaces
-surfaces.load = lambda *a, **k: os.kill(os.getpid(), signal.SIGINT)
+from curvcli.loading import load
+load.load = lambda *a, **k: os.kill(os.getpid(), signal.SIGINT)
 """
     ended = disturbed(program, "check", CUBE, "-o", tmp_path / "check.json")
     assert ended.code == 130

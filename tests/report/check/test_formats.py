@@ -16,7 +16,7 @@ import junitparser
 import numpy as np
 import pytest
 
-from curvcli.analysis.request import Conventions
+from curvcli.analysis.request import Request
 from curvcli.api import Analysis
 from curvcli.checks import Check
 from curvcli.checks.base import rules
@@ -172,7 +172,7 @@ def test_a_failing_identity_says_by_how_much() -> None:
 
 def test_a_disturbed_identity_fails_the_mesh() -> None:
     body = meshes.pinched()
-    analysis = Analysis(Surface(body.points, body.faces), ["status"], Conventions(), None, ["gauss_bonnet"])
+    analysis = Analysis(Surface(body.points, body.faces), Request(passes=["status"]), checks=["gauss_bonnet"])
     disturbed = analysis.columns["K"].copy()
     disturbed[2] += np.pi
     analysis.columns["K"] = disturbed
