@@ -196,8 +196,9 @@ def test_a_stem_may_stand_amid_a_name(tmp_path: Path) -> None:
 
 
 def test_an_error_names_the_way_out(tmp_path: Path) -> None:
-    mesh = tmp_path / "mesh.off"
+    mesh = tmp_path / "mesh.data"
     mesh.write_bytes(Path(CUBE).read_bytes())
     ended = curvcli("analyze", mesh)
-    assert (ended.code, ended.complaint.endswith("; --input-format obj|ply|stl reads it as such")) == (3, True)
+    way_out = "; --input-format obj|ply|stl reads a file of such a format under another name"
+    assert (ended.code, ended.complaint.endswith(way_out)) == (3, True)
     wrote(curvcli("analyze", mesh, "--input-format", "obj", "-q"))

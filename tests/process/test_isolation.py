@@ -23,9 +23,10 @@ DANGEROUS = {
     *("urllib.request", "subprocess", "multiprocessing", "ctypes", "cffi"),
 }
 # `batch` works in processes of its own and talks with them, and only with them, through pipes that nobody else has;
-# the commands tell the C library how to keep memory; pictures ask whether the system has OpenGL, which VTK needs.
+# the C library keeps memory as the commands set it, and gives it back between meshes; pictures ask whether the system has OpenGL, which VTK needs.
 ALLOWED = {
     ("curvcli/commands/allocation.py", "ctypes"),
+    ("curvcli/support/memory.py", "ctypes"),
     ("curvcli/output/pictures/render.py", "ctypes"),
     ("curvcli/batch/processes.py", "subprocess"),
 }

@@ -156,5 +156,7 @@ def _between(tokens: _Tokens, begin: Places, end: Places) -> list[Notice]:
         notices.append(Notice("missing_endsolid", 1, "text that ends without `endsolid`", hint))
     if unknown:
         message = pluralize(unknown, "[statement|statements] that STL does not know, ignored")
-        notices.append(Notice("unknown_statements", unknown, message))
+        notices.append(
+            Notice("unknown_statements", unknown, message, "facets are triangles between `facet` and `endfacet`")
+        )
     return notices
