@@ -1,1 +1,1 @@
-"""Curvatures: passes, one idea a file, and the engine that runs them."""
+"""Curvatures: passes, one idea per file, and the engine that runs them."""

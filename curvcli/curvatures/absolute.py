@@ -1,4 +1,4 @@
-"""Absolute Gauss curvature: what the convex hull of the star has of it, and what the star has less."""
+"""Absolute Gauss curvature: K⁺ of the convex hull of the star, and K⁻ = K⁺ − K."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from .kernels.normal_cones import normal_cone_areas
 from .quantity import Quantity
 from .registry import curvature_pass
 
-# Directions per block: so many that two threads rarely wait for each other at the interpreter.
+# Directions per block: enough that two threads rarely wait for the interpreter lock.
 _DIRECTIONS = 131072
-# Degrees up to this have a group of their own; larger ones are rounded up, the last direction repeated.
+# Degrees up to this form one group each; larger ones are rounded up, with the last direction repeated.
 _EXACT_DEGREE = 24
 
 _SHARED = {
@@ -78,11 +78,11 @@ def absolute_curvature(surface: Surface, K: Column, theta: Column) -> tuple[Colu
 
 
 def locally_convex(surface: Surface, K: Column, theta: Column) -> Flags:
-    """(V,) interior vertices at which the star is the boundary of its own convex hull, so that K⁺ = K.
+    """(V,) mask of the interior vertices whose star is the boundary of its own convex hull, so that K⁺ = K.
 
-    All dihedral angles of one sign say that the link is locally convex. As K ≥ 0 makes it no longer than 2π, it winds
-    once exactly if they sum to no more than 2π: a link with w turns has Σ|θ| = 2πw − area, area < 2π. Where this
-    cannot be told (θ null, or unsigned for want of an orientation) the answer is no.
+    Dihedral angles of one sign mean that the link is locally convex. K ≥ 0 makes it no longer than 2π, and it winds
+    once exactly if they sum to at most 2π: a link with w turns has Σ|θ| = 2πw − area, area < 2π. False where θ is
+    null or has no sign for want of an orientation.
     """
     up, down = np.zeros(surface.n_vertices), np.zeros(surface.n_vertices)
     for block in slices(len(surface.edges)):
@@ -97,7 +97,7 @@ def locally_convex(surface: Surface, K: Column, theta: Column) -> Flags:
 
 
 class _Neighbours:
-    """The other ends of the edges at every vertex: those with lower numbers, then those with higher ones."""
+    """Neighbours of every vertex: those with lower numbers, then those with higher ones."""
 
     def __init__(self, surface: Surface) -> None:
         edges, vertices = surface.edges, surface.n_vertices
@@ -111,7 +111,7 @@ class _Neighbours:
         self.degree = surface.degree
 
     def of(self, vertices: NDArray[np.intp], degree: int) -> NDArray[np.intp]:
-        """(degree, n) neighbours of vertices that have at most so many, the last one repeated."""
+        """(degree, n) neighbours of vertices of at most that degree, with the last one repeated."""
         rank = np.minimum(np.arange(degree, dtype=np.int32)[:, None], self.degree.take(vertices) - np.int32(1))
         above = rank - self.count_lower.take(vertices)
         lower = self.lower.take(self.first_lower.take(vertices) + rank, mode="clip")
@@ -120,7 +120,7 @@ class _Neighbours:
 
 
 def _blocks_by_degree(chosen: NDArray[np.intp], degree: Index) -> Iterator[tuple[NDArray[np.intp], int]]:
-    """Blocks of vertices with the same number of directions, and that number."""
+    """Yield blocks of vertices with the same number of directions, and that number."""
     size = _rounded_up(degree[chosen])
     order = np.argsort(size, kind="stable")
     chosen, size = chosen[order], size[order]
@@ -131,7 +131,7 @@ def _blocks_by_degree(chosen: NDArray[np.intp], degree: Index) -> Iterator[tuple
 
 
 def _rounded_up(degree: Index) -> NDArray[np.int64]:
-    """Degrees, those above a limit rounded up by at most an eighth, so that few groups hold them all."""
+    """Round up degrees above a limit by at most an eighth, to get few groups."""
     exponent = np.frexp(np.maximum(degree - 1, 1))[1].astype(np.int64)
     unit = np.left_shift(1, np.maximum(exponent - 4, 0))
     return np.where(degree <= _EXACT_DEGREE, degree, -(-degree.astype(np.int64) // unit) * unit)

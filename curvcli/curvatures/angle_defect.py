@@ -1,4 +1,4 @@
-"""Gauss curvature as angle defect, and its counterpart on the boundary."""
+"""Angle defects: Gauss curvature inside, geodesic curvature on the boundary."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .star import null_where
 
 @curvature_pass(public=False)
 def general_defect(surface: Surface, angle_sum: Column, coincident: Flags) -> Column:
-    """2π − Σθ − (π/2) Σ_{e at p} (2 − n_e): the defect of any triangle complex, pinched or with many faces at an edge.
+    """Compute 2π − Σθ − (π/2) Σ_{e at p} (2 − n_e), the defect of any triangle complex, pinched or with any n_e.
 
     Every face at p has two edges there, so the last sum is 2 (deg − faces). Null where a corner coincides with another.
     """

@@ -1,4 +1,4 @@
-"""Areas of vertices that follow the shape of the triangles."""
+"""Mixed Voronoi areas of vertices."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def A_mixed(surface: Surface) -> Column:
 
 
 def _parts(surface: Surface, face: Index) -> Floats:
-    """(3, n) the area that each face gives to its corners."""
+    """(3, n) the parts of each face's area at its corners."""
     t = triangles(surface.xyz, face)
     cosines = np.array(t.cosines)
     squares = np.array([dot(side, side) for side in (t.v, t.w, t.u)])
@@ -57,14 +57,14 @@ def _voronoi_parts(shares: Floats) -> Floats:
 
 
 def _thin_parts(surface: Surface, face: Index) -> tuple[Floats, Floats]:
-    """The same shares and the sign of each angle's cosine at twice the digits."""
+    """Compute the shares and the sign of each angle's cosine in double-double arithmetic."""
     c, twice_area = corner_products(surface.xyz, tuple(face.T))
     shares = np.array([((c[i - 2] + c[i - 1]) * (c[i] / twice_area)).high for i in range(3)])
     return _voronoi_parts(shares), np.array([x.high for x in c])
 
 
 def _with_obtuse(parts: Floats, cosines: Floats, t: Triangles) -> Floats:
-    """The parts with the rule for obtuse faces; nothing where there is no area."""
+    """Apply the rule for obtuse faces; 0 on faces without area."""
     at_obtuse = cosines < 0
     obtuse = np.flatnonzero(at_obtuse.any(axis=0) | (t.twice_area == 0))
     if len(obtuse):

@@ -15,7 +15,7 @@ from .quantity import Quantity
 from .registry import curvature_pass
 from .star import null_where
 
-# Ends that move by ½√3 of the last place on either side of a vertex lift an edge by 2√3 of it, and κ|e|² is twice that.
+# Ends displaced by ½√3 of the last place on either side of a vertex lift an edge by 2√3 of it; κ|e|² is twice that.
 _LIFTED = 4 * np.sqrt(3)
 _ARITHMETIC = 64 * EPSILON
 

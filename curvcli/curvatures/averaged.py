@@ -29,7 +29,7 @@ _SHARED: dict[str, Any] = {
 
 
 def _sums(surface: Surface, scale: Scale, used: Flags, rows: list[Floats]) -> Floats:
-    """(k, V) sums over neighbourhoods of the rows where they are used."""
+    """(k, V) sums of the rows over neighbourhoods, with unused entries as 0."""
     data = np.where(used, rows, 0.0).T
     return np.ascontiguousarray(sums(surface, scale, np.ascontiguousarray(data)).T)
 

@@ -1,4 +1,4 @@
-"""The catalogue of passes: built-ins, plug-ins, presets, and the order of the table."""
+"""Catalogue of passes: built-ins, plug-ins, presets, and the order of the table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..support.words import suggestion
 from .quantity import AT_SCALE, Quantity
 from .registry import Registry, passes
 
-# The built-in passes, one idea a file: a pass may need only what an earlier file provides.
+# The built-in passes, one idea per file; a pass may need only quantities of earlier files.
 BUILT_IN = (
     "star",
     "status",
@@ -44,17 +44,17 @@ CORE = (
 )
 
 
-# What noise of the coordinates makes of K and h.
+# Standard deviations of K and h for noisy coordinates.
 UNCERTAINTIES = ("K_sigma", "h_sigma")
 
 
 def defaults(scaled: bool, noisy: bool) -> tuple[str, ...]:
-    """What is computed where nothing is named: core, estimates where a scale is asked for, uncertainties with noise."""
+    """Default quantities: core, with estimates if a scale is given, and uncertainties if noise is given."""
     return ("core", *(("estimates",) if scaled else ()), *(UNCERTAINTIES if noisy else ()))
 
 
 def presets() -> dict[str, Sequence[str]]:
-    """The quantities that each preset stands for."""
+    """The quantities of each preset."""
     load_passes()
     public = passes.quantities()
     return {
@@ -67,14 +67,14 @@ def presets() -> dict[str, Sequence[str]]:
 
 
 def _estimates(quantity: Quantity) -> bool:
-    """Whether it is a curvature, a shape index or an energy at a scale; directions and conditions are none."""
+    """Test for a curvature, a shape index or an energy at a scale, as opposed to directions and conditions."""
     return (quantity.kind in ("density", "measure") or quantity.signed) and passes.depends_on_scale(quantity.name)
 
 
 def resolve(names: Iterable[str]) -> list[str]:
-    """Quantity names for what a user asked for: names, stems of vectors, comma lists and presets, in table order.
+    """Resolve names, stems of vectors, comma lists and presets to quantity names in table order.
 
-    Errors: UsageError for an unknown name, with the nearest ones.
+    Errors: UsageError for an unknown name, with similar ones.
     """
     named = presets()
     public = {quantity.name: quantity for quantity in passes.quantities()}
@@ -92,7 +92,7 @@ def resolve(names: Iterable[str]) -> list[str]:
 
 
 def at_scales(names: Iterable[str], settings: Settings) -> list[str]:
-    """The names, those that depend on the scale once for each where there are several: `K_ring@2e`."""
+    """Expand names that depend on the scale, once per scale if there are several: `K_ring@2e`."""
     load_passes()
     if len(settings.scales) == 1:
         return list(names)
@@ -104,7 +104,7 @@ def at_scales(names: Iterable[str], settings: Settings) -> list[str]:
 def load_passes() -> None:
     """Import the built-in passes and the plug-ins of the entry-point group `curvcli.passes`, once.
 
-    Errors: UsageError for a plug-in that cannot be imported or whose declaration does not fit.
+    Errors: UsageError for a plug-in that fails to import or has an invalid declaration.
     """
     from importlib.metadata import entry_points
 

@@ -1,4 +1,4 @@
-"""Bobenko's conformal energy: how far the circumcircles of a star are from touching like those of a sphere."""
+"""Bobenko's conformal energy, from the intersection angles of circumcircles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Interpolated corrected curvatures: measures of the triangles with normals interpolated between their vertices."""
+"""Interpolated corrected curvatures: measures of triangles with normals interpolated between their vertices."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .quantity import Quantity
 from .registry import curvature_pass
 from .star import null_where
 
-# Below this part of the area the normals do not belong to the faces, and what is divided by Σμ₀ means nothing.
+# Least ratio of Σμ₀ to the area; below it the normals do not match the faces, and quotients by Σμ₀ are meaningless.
 _ASTRAY = 0.25
 # Eigenvalues nearer to each other than this part of their size differ by rounding only.
 _UMBILIC = 512 * EPSILON
@@ -47,16 +47,16 @@ def corrected_measures(
 ) -> tuple[Column, ...]:
     """Σμ₂/Σμ₀ (V,) and Σμ_XY/Σμ₀ (6, V), sharpened, and Σμ₀.
 
-    Each face's measures go to its corners in equal parts and are summed over neighbourhoods. What an average over a
-    neighbourhood takes off the peaks is estimated by averaging once more, and given back: x̂ = 2 x̄ − x̿.
-    Σμ₂/Σμ₀ is cut to what the angle defects allow that the two averages reach: a sheet without any is flat, and what
-    normals say else, such as those that one-sided neighbourhoods tilt at a rim, is their error.
+    Each face's measures go to its corners in equal parts and are summed over neighbourhoods. The loss of peaks by
+    averaging is estimated by averaging once more, and added back: x̂ = 2 x̄ − x̿.
+    |Σμ₂/Σμ₀| is bounded by the angle defects in reach of the two averages: a sheet without defects is flat, and other
+    values are errors of the normals, such as those that one-sided neighbourhoods tilt at a rim.
     """
     corners = _Corners(surface)
     measures = _measures(surface, fitted_normal)
     mean, defects = _averaged(surface, scale, corners.gather(measures), _sizes_of_defects(surface, K))
     _spread(surface, mean, measures)
-    defects[np.isnan(mean[:, _MU_0])] = np.inf  # a neighbourhood that was not looked at
+    defects[np.isnan(mean[:, _MU_0])] = np.inf  # a neighbourhood left empty
     again, defects = _averaged(surface, scale, corners.gather(measures), defects)
     del measures
     found = np.empty((7, surface.n_vertices))
@@ -71,7 +71,7 @@ def corrected_measures(
 
 
 def _sizes_of_defects(surface: Surface, K: Column) -> Column:
-    """(V,) |K| of the vertices inside, 0 within rounding, infinite where it is null."""
+    """(V,) |K| at interior vertices, 0 within rounding, infinite for null."""
     size = np.where(surface.interior, np.abs(K), 0.0)
     size[size <= 8 * EPSILON * surface.degree] = 0.0
     size[np.isnan(size)] = np.inf
@@ -187,7 +187,7 @@ def corrected_directions(
     def turn(block: slice) -> None:
         tensor = corrected_tensor[:, block]
         _, gap, *pair = tangential(tensor, fitted_normal[:, block])
-        # The rounding of unit normals is that of curvatures the size of a face.
+        # Rounding of unit normals acts like a curvature of ε per size of a face.
         rounding = np.abs(tensor).max(axis=0) + 1 / np.sqrt(corrected_area[block])
         distinct = (gap > _UMBILIC * rounding) & ~surface.without_orientation[block]
         found[:, :, block] = np.where(distinct, [line(vector) for vector in pair], np.nan)
@@ -197,7 +197,7 @@ def corrected_directions(
 
 
 class _Corners:
-    """The corners at each vertex, by which measures of faces are gathered there."""
+    """The corners at each vertex, for gathering measures of faces."""
 
     def __init__(self, surface: Surface) -> None:
         shape = (surface.n_faces, surface.n_vertices)
@@ -222,7 +222,7 @@ class _Corners:
 def _measures(surface: Surface, normal: VectorColumn) -> Floats:
     """(F, 9) a third of each face's μ₀, of its area, of μ₂ and of the tensor ∫∇u.
 
-    A face with a corner whose normal is null adds nothing. With d the edges and e the differences of the normals from
+    A face with a null normal at a corner adds nothing. With d the edges and e the differences of the normals from
     corner 0, ∫∇u = ½ (e₁ ⊗ (d₂ × ū) + e₂ ⊗ (ū × d₁)) for u linear on the face; its trace is μ₁.
     """
     found = np.empty((surface.n_faces, 9))
@@ -253,7 +253,7 @@ def _measures(surface: Surface, normal: VectorColumn) -> Floats:
 
 
 def _divided(total: Floats) -> Floats:
-    """The sums of measures, from μ₂ on as densities; null where the measure of area is not sound."""
+    """Divide the sums of measures, from μ₂ on, by Σμ₀; null where Σμ₀ is too small."""
     mu_0 = total[:, _MU_0].copy()
     unsound = ~((mu_0 > 0) & (mu_0 >= _ASTRAY * total[:, _AREA]))
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
@@ -263,7 +263,7 @@ def _divided(total: Floats) -> Floats:
 
 
 def _spread(surface: Surface, density: Floats, measures: Floats) -> None:
-    """Replace the measures of the faces by those of a density that is given at the vertices; μ₀ stays."""
+    """Replace the measures of the faces by those of a density at the vertices; μ₀ stays."""
     sign = surface.corner_sign
 
     def spread(block: slice) -> None:

@@ -40,7 +40,7 @@ def delaunay(surface: Surface) -> tuple[Column | Flags, ...]:
     triangulation = IntrinsicTriangulation(surface)
     hidden = triangulation.degenerate_corners() | ~surface.referenced
     area = circumcentric_areas(triangulation)
-    # Beyond any digits, a face so thin that a cotangent is infinite cannot be told from what a flip would make of it.
+    # A face so thin that a cotangent overflows is indistinguishable from the result of its flip.
     unfinished = triangulation.unfinished_corners() | (~hidden & ~np.isfinite(area))
     return null_where(hidden | unfinished, area), unfinished
 

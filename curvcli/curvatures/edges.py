@@ -1,4 +1,4 @@
-"""Mean curvature on edges: dihedral angles and the three lengths they make of the edge."""
+"""Mean curvature on edges: dihedral angles, and their sine, angle and tangent times the length."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..support.blocks import for_each, slices
 from .registry import curvature_pass
 from .star import null_where
 
-# So many that two threads rarely wait for each other at the interpreter.
+# Enough that two threads rarely wait for the interpreter lock.
 EDGES_PER_BLOCK = 32768
 
 # Rounding of the sine between two unit normals.
@@ -66,15 +66,15 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
         one, other, forward, against = _sides(surface, edges)
         nu, mu = ([x.take(face) for x in unit_normal] for face in (one, other))
         along = span(surface.xyz, edges.a, edges.b)
-        # agree: −1 where the file winds the two faces against each other, so that mu counts with the other sign. The
-        # one face is on the left of the edge from a to b where its half-edge runs that way.
+        # agree: −1 where the file winds the two faces against each other, so that mu has the opposite sign. A face is
+        # on the left of the edge ab if its half-edge runs from a to b.
         agree = np.where(forward != against, 1.0, -1.0)
         side = np.where(forward, agree, -agree)
         if face_sign is not None:
             side *= face_sign[one]
         turn = side * dot(cross(nu, mu), along) / np.sqrt(dot(along, along))
         together = agree * dot(nu, mu)
-        # Two faces that lie on each other turn by π; the sign of a sine that is all rounding means nothing.
+        # Two faces folded onto each other turn by π; the sign of a sine within rounding is meaningless.
         found = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
         angle[edges.where] = found if without is None else np.where(without[one], np.abs(found), found)
 
@@ -84,13 +84,13 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
 
 @curvature_pass(on="edge", kind="flag", public=False)
 def folded(theta: Column) -> Flags:
-    """Edges whose two faces lie on each other, to rounding."""
+    """Mask of the edges folded by π, to rounding."""
     mask: Flags = np.pi - np.abs(theta) <= FOLD
     return mask
 
 
 def _sides(surface: Surface, edges: InnerEdges) -> tuple[NDArray[np.intp], NDArray[np.intp], Mask, Mask]:
-    """The two faces at each edge, and whether each face's half-edge runs from a to b in the file."""
+    """The two faces at each edge, and flags of half-edges from a to b in the file."""
     tail = surface.faces.reshape(-1)
     forward, against = (tail.take(half_edges) == edges.a for half_edges in (edges.one, edges.other))
     return edges.one // 3, edges.other // 3, forward, against

@@ -1,4 +1,4 @@
-"""From the names asked for to the columns: what must run, in which order, and what can be let go."""
+"""Engine: schedule of passes, evaluation in order, and release of intermediate columns."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ from .quantity import AT_SCALE, CELL_AREA, CELL_AREAS, MASKS, NO_QUANTITIES, SUR
 
 Array = NDArray[Any]
 
-# Passes that look at one vertex at a time have so many of them at once.
+# Block size of pointwise passes.
 _VERTICES = 1 << 16
 
 
 def needs(one: Step, area: str) -> list[str]:
-    """The quantities a pass needs, the chosen cell area under its own name."""
+    """The quantities that a pass needs, with the name of the chosen cell area for `cell_area`."""
     return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need not in NO_QUANTITIES]
 
 
 def arguments(
     one: Step, surface: Surface, have: Mapping[str, Array], area: str = "barycentric", settings: Settings = DEFAULTS
 ) -> list[Any]:
-    """What a pass is called with."""
+    """The arguments of a pass."""
     columns = iter(needs(one, area))
 
     def answer(need: str) -> Any:
@@ -46,7 +46,7 @@ def arguments(
 
 
 def schedule(passes: Provider, names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Step]:
-    """The passes that must run for the named quantities, each after what it needs."""
+    """Order the passes for the named quantities so that each comes after its needs."""
     graph: dict[str, set[str]] = {}
     found: dict[str, Step] = {}
     todo = list(names)
@@ -63,14 +63,14 @@ def schedule(passes: Provider, names: Iterable[str], area: str, have: Set[str] =
     ready: list[Step] = []
     while sorter.is_active():
         ready += map(found.__getitem__, sorter.get_ready())
-        ready.sort(key=lambda one: one.pointwise)  # last, so that they come together
+        ready.sort(key=lambda one: one.pointwise)  # last, to run them together
         order.append(ready.pop(0))
         sorter.done(order[-1].name)
     return order
 
 
 def prepare(passes: Provider, surface: Surface, names: Iterable[str], area: str = "barycentric") -> None:
-    """Work out the topology, and let go of the edges unless one of the named quantities comes by way of edges."""
+    """Compute the topology, and release the edges unless a named quantity needs them."""
     order = schedule(passes, (name.partition(AT_SCALE)[0] for name in names), area)
     if any(quantity.on == "edge" for one in order for quantity in one.provides):
         surface.compute_topology()
@@ -87,10 +87,10 @@ def evaluate(
     settings: Settings = DEFAULTS,
     known: Mapping[str, Array] | None = None,
 ) -> dict[str, Array]:
-    """Compute the named quantities and only what they need; every pass runs once, intermediates are let go.
+    """Compute the named quantities and their needs; every pass runs once, intermediates are released.
 
-    area: which cell area `K_density` and what follows from it use. settings: what estimators are told; names that
-    depend on the scale may say which, `NAME@SCALE`. known: columns that need not be computed again.
+    area: the cell area of `K_density` and its dependents. settings: scales, normals and noise of estimators; names
+    that depend on the scale may include it, `NAME@SCALE`. known: columns computed before.
     Arrays are frozen, in the unit of computation and the sum convention of H.
     """
     have = dict(known or {})
@@ -114,7 +114,7 @@ def evaluate(
 
 
 def _shared(passes: Provider, names: Iterable[str], area: str) -> set[str]:
-    """What several scales have in common of the way to the names at them."""
+    """The quantities that several scales share on the way to the named ones."""
     order = schedule(passes, (name.partition(AT_SCALE)[0] for name in names), area)
     scaled = [one for one in order if passes.depends_on_scale(one.provides[0].name)]
     return {need for one in scaled for need in needs(one, area) if not passes.depends_on_scale(need)}
@@ -147,16 +147,16 @@ def _evaluate(
 
 
 def _named(one: Step, given: Iterable[Any]) -> dict[str, Array]:
-    """What a pass provides, by name."""
+    """The results of a pass, by name."""
     found = one.compute(*given)
     names = [quantity.name for quantity in one.provides]
     return dict(zip(names, found if len(names) > 1 else (found,), strict=True))
 
 
 def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array], area: str) -> dict[str, Array]:
-    """What passes provide that look at one vertex at a time, in blocks of vertices and two threads.
+    """Run pointwise passes in blocks of vertices, in two threads.
 
-    What one pass finds is still in the cache when the next one needs it.
+    The results of one pass are still in the cache for the next.
     """
     n = surface.n_vertices
     columns = {
@@ -181,9 +181,9 @@ def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array
 
 
 def in_file_unit(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:
-    """A column as a user sees it: in the file's unit of length and the chosen convention for H, codes as words.
+    """Convert a column to the file's unit of length and the chosen convention for H, with codes as words.
 
-    Vectors come out as (n, 3).
+    Returns vectors as (n, 3).
     """
     if quantity.labels:
         array = np.array(quantity.labels)[array]

@@ -1,4 +1,4 @@
-"""Quantities of faces."""
+"""Quantities of faces: normals and areas."""
 
 from __future__ import annotations
 

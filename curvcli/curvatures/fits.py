@@ -1,4 +1,4 @@
-"""Curvatures of local fits: the surface near a vertex as a polynomial over its tangent plane."""
+"""Curvatures of local fits of a polynomial over the tangent plane."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _LINE: dict[str, Any] = {
 }
 # Principal curvatures that differ by less than this part of their size, or by rounding, have no directions.
 _UMBILIC = 1e-9
-# The part of its area that the projection of a half sphere onto its plane has.
+# Ratio of the projected area of a half sphere to its area.
 _HALF_SPHERE = 0.5
 
 
@@ -134,11 +134,12 @@ def local_fit(surface: Surface, scale: Scale, star_vector: VectorColumn) -> tupl
 
 
 def _is_no_graph(given: Moments, jets: Jets) -> Flags:
-    """(m,) neighbourhoods that are no graph over the tangent plane, as far as their normals and their fits tell.
+    """(m,) mask of the neighbourhoods that are no graph over the tangent plane, by their normals and fits.
 
-    The largest graph on a sphere of radius 1/κ is a half: its shadow on the plane has half of its area, and its points
-    are within √2/κ of the middle. Here the shadow has less, or the fit itself says that the points are farther: with
-    its shape operator S, and κ the larger of its curvatures by size, the mean of |S x|² + (κ z)² is above 2.
+    The largest graph on a sphere of radius 1/κ is a half sphere: its projection has half of its area, and its points
+    are within √2/κ of the centre. A neighbourhood is no graph if its projected area is less, or if the fit puts its
+    points farther away: with its shape operator S, and κ its larger curvature by size, the mean of |S x|² + (κ z)²
+    exceeds 2.
     """
     p, q = jets.gradient
     a, b, d = jets.hessian / np.sqrt(1 + p * p + q * q)
@@ -155,9 +156,9 @@ def _curvatures(given: Moments, jets: Jets) -> tuple[Floats, Floats]:
     R⁻¹ II R⁻ᵀ.
     """
     p, q = jets.gradient
-    # A graph that bends down, away from its normal, is convex seen from there.
+    # A graph that bends away from its normal is convex.
     a, b, d = -jets.hessian / np.sqrt(1 + p * p + q * q)
-    # R = ((first, 0), (skew, second)); a, b, d turn from the entries of II into those of the shape operator.
+    # R = ((first, 0), (skew, second)); a, b, d change from the entries of II to those of the shape operator.
     first = np.sqrt(1 + p * p)
     skew = p * q / first
     second = np.sqrt(1 + p * p + q * q) / first  # √(1 + q² − skew²) without its cancellation

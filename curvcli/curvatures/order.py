@@ -1,4 +1,4 @@
-"""The order of columns and totals in every table, report and page, whatever the order of imports."""
+"""Order of columns and totals in all tables, reports and pages, independent of the order of imports."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ EDGES = ("edge_length", "theta", "edge_H_vec", "H_sin", "H_theta", "H_tan", "kap
 FACES = ("area_of_face", "normal", "dirichlet")
 COLUMNS = (*VERTICES, *EDGES, *FACES)
 
-# By the keys of the report; `volume` has no column of its own.
+# Keys of the report; `volume` has no column.
 TOTALS = (
     *("area", "volume", "K", "kappa_g", "A_vec", "H_vec", "H_sin", "H_theta", "H_tan", "K_plus", "K_minus", "K_abs"),
     *("willmore", "willmore_hks", "willmore_perp", "willmore_normal", "willmore_conformal", "dirichlet"),
@@ -30,12 +30,12 @@ TOTALS = (
 )
 
 
-# The place of each name in its order.
+# The position of each name in its order.
 COLUMN_PLACES, TOTAL_PLACES = ({name: place for place, name in enumerate(order)} for order in (COLUMNS, TOTALS))
 
 
 def ordered(
     items: Iterable[_Item], name: Callable[[_Item], str], places: Mapping[str, int] = COLUMN_PLACES
 ) -> list[_Item]:
-    """The items by the places of their names; those without a place follow as they come."""
+    """Sort items by the positions of their names; items without a position follow in their own order."""
     return sorted(items, key=lambda item: places.get(name(item), len(places)))

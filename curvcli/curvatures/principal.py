@@ -12,7 +12,7 @@ from .quantity import Quantity
 from .registry import curvature_pass
 from .star import null_where
 
-# Rounding of an angle defect, of which the root of the radicand takes half the digits.
+# Rounding of an angle defect; the root of the radicand halves its digits.
 _DEFECT = 16 * EPSILON * 2 * np.pi
 
 _SHARED: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""Quantity: the declaration of one column, and the types that passes are written in."""
+"""Quantity: the declaration of one column, and the protocols of passes."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ Element = Literal["vertex", "edge", "face"]
 Kind = Literal["measure", "density", "angle", "length", "direction", "ratio", "count", "label", "flag"]
 Parity = Literal["even", "odd"]
 
-# Parameters that are no quantity: the surface itself, its masks of vertices, and the area that `--area` chooses.
+# Parameters that are no quantity: the surface, its masks of vertices, and the area chosen by `--area`.
 SURFACE, MASKS, CELL_AREA = "surface", ("interior", "boundary", "referenced", "without_orientation"), "cell_area"
-# The others are answered by `Settings`; what depends on the scale is named `NAME@SCALE` where there are several.
+# `Settings` provides the others; a quantity at one of several scales is named `NAME@SCALE`.
 NO_QUANTITIES = (SURFACE, *MASKS, *PARAMETERS)
 AT_SCALE = "@"
 CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
@@ -22,7 +22,7 @@ CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
 
 @dataclass(frozen=True)
 class Quantity:
-    """One column.
+    """Declaration of one column.
 
     name: of the column. symbol, formula, preserves, boundary, source: for people. on: its element.
     kind: `measure` is integrated, `density` is per area or pointwise. length_exponent: how it scales with length.
@@ -59,7 +59,7 @@ class Quantity:
 
     @property
     def stem(self) -> str:
-        """What it is called in the table of its element."""
+        """Its name in the table of its element."""
         return self.column or self.name
 
     @property
@@ -75,7 +75,7 @@ class Quantity:
 
 
 class Step(Protocol):
-    """A pass, as the engine runs it: see `registry.Pass`."""
+    """Protocol of a pass for the engine, see `registry.Pass`."""
 
     @property
     def name(self) -> str: ...
@@ -90,7 +90,7 @@ class Step(Protocol):
 
 
 class Provider(Protocol):
-    """Passes by what they provide: see `registry.Registry`."""
+    """Protocol of a registry of passes, see `registry.Registry`."""
 
     def provider(self, quantity: str) -> Step: ...
     def depends_on_scale(self, name: str) -> bool: ...

@@ -1,7 +1,7 @@
-"""The declaration of a pass: what a quantity is called, what it is, what it keeps, and what it is computed from.
+"""Pass and Registry: declaration of passes, and lookup of quantities.
 
-A pass is one pure function. Its name is the column, its parameters are the quantities it needs, its decorator says what
-it is; tables, schema, documentation, invariance tests and benchmarks follow from that.
+A pass is one pure function. Its name is the column, its parameters are the quantities it needs, and its decorator
+describes the column; tables, schema, documentation, invariance tests and benchmarks are derived from them.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ _SCALE = re.compile(r"r\d[\d.e+-]*|\d[\d.e+-]*(rings|e)")
 
 @dataclass(frozen=True)
 class Pass:
-    """A registered function with the quantities it provides and the names of what it needs.
+    """A registered function with the quantities it provides and the names of its needs.
 
-    pointwise: whether what it gives at a vertex follows from what its arguments say of it. They are columns and masks
-    of vertices then, what it gives are numbers and flags, and the function is called with some vertices at a time.
-    registry: the registry that the pass stands in.
+    pointwise: its values at a vertex depend on the arguments at that vertex only. Arguments are then columns and masks
+    of vertices, results are numbers and flags, and the function is called with blocks of vertices.
+    registry: the registry of the pass.
     """
 
     name: str
@@ -43,7 +43,7 @@ class Pass:
     registry: Registry | None = field(default=None, repr=False, compare=False)
 
     def __reduce__(self) -> tuple[Callable[..., Pass], tuple[Registry | None, str]]:
-        """Pickle a pass by its name: its function stands in its module under that name."""
+        """Pickle a pass by the name of its function."""
         return getitem, (self.registry, self.name)
 
     def __call__(self, surface: Any) -> Any:
@@ -76,7 +76,7 @@ class Registry(Mapping[str, Pass]):
         return self._passes[name]
 
     def __getattr__(self, name: str) -> Pass:
-        # No pass has such a name; a copy that is being made has no passes yet.
+        # No pass has a name that starts with an underscore; a copy in the making has no passes yet.
         if name.startswith("_") or name not in self._passes:
             raise AttributeError(name)
         return self._passes[name]
@@ -90,7 +90,7 @@ class Registry(Mapping[str, Pass]):
     def add(self, new: Pass) -> Pass:
         """Register a pass and return it as registered.
 
-        Its needs must be known and its columns new, so that a misspelling fails at import.
+        Its needs must be known and its columns new, so that a misspelling fails at import. Errors: UsageError.
         """
         for need in new.needs:
             if need not in self._providers and need not in (*NO_QUANTITIES, CELL_AREA):
@@ -116,7 +116,7 @@ class Registry(Mapping[str, Pass]):
         return new
 
     def _settled(self, quantity: Quantity, needs: tuple[str, ...]) -> Quantity:
-        """A quantity that says whether it is rooted."""
+        """The quantity with `rooted` set, inherited from its needs if None."""
         if quantity.rooted is not None:
             return quantity
         return replace(quantity, rooted=any(self.quantity(need).rooted for need in needs if need in self._providers))
@@ -135,17 +135,17 @@ class Registry(Mapping[str, Pass]):
         return replace(found, name=name, column=f"{found.stem}_{scale}", total=total)
 
     def depends_on_scale(self, name: str) -> bool:
-        """Whether a quantity, or one that it needs, looks at neighbourhoods."""
+        """Test whether a quantity, or one that it needs, uses neighbourhoods."""
         needs = self._providers[name].needs
         return "scale" in needs or any(self.depends_on_scale(need) for need in needs if need in self._providers)
 
     def looks_around(self, name: str) -> bool:
-        """Whether a quantity, perhaps at a scale, says of vertices what their neighbourhoods are like."""
+        """Test for a quantity of vertices, perhaps at a scale, that depends on neighbourhoods."""
         plain = name.partition(AT_SCALE)[0]
         return self.depends_on_scale(plain) and self.quantity(plain).on == "vertex"
 
     def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
-        """Quantities in the order of the tables, vertices first; what has no place there follows as it was declared."""
+        """Quantities in the order of the tables, vertices first; others follow in the order of declaration."""
         elements = get_args(Element) if on is None else (on,)
         placed = ordered(self._declared(), lambda quantity: quantity.name)
         return [
@@ -161,7 +161,7 @@ class Registry(Mapping[str, Pass]):
         return ordered(declared, lambda quantity: quantity.total or "", TOTAL_PLACES)
 
     def column(self, name: str, on: Element = "vertex") -> Quantity | None:
-        """The quantity that a column of a table belongs to, also of one at a scale (`K_fit_2e`); None for another."""
+        """The quantity of a column of a table, also at a scale (`K_fit_2e`); None for other columns."""
         found: Quantity | None = None
         for quantity in self._declared():
             if quantity.on == on and quantity.public:

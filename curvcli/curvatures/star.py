@@ -1,4 +1,4 @@
-"""Sums over the star of each vertex, all from one sweep over the faces."""
+"""Star sums of each vertex, from one sweep over the faces."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from .registry import curvature_pass
 
 
 def null_where(mask: Flags, values: Column) -> Column:
-    """A column (or a (3, n) vector column) with NaN where the mask holds: a copy, or itself where it does nowhere."""
+    """Set a column, (n,) or (3, n), to NaN where the mask holds; a copy, or the column itself for an empty mask."""
     return np.where(mask, np.nan, values) if mask.any() else values
 
 
 def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
-    """The quotient where it may be used and the denominator is positive, NaN elsewhere."""
+    """Divide where `usable` holds and the denominator is positive; NaN elsewhere."""
     usable = usable & (denominator > 0)
     quotient: Column = numerator / (denominator if usable.all() else np.where(usable, denominator, np.nan))
     return quotient

@@ -1,4 +1,4 @@
-"""What kind of vertex each row is."""
+"""Status and degree of vertices."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .registry import curvature_pass
     labels=STATUS,
 )
 def status(surface: Surface, degenerate: Flags) -> Codes:
-    """Which rules apply at the vertex; codes index `interior, boundary, degenerate, nonmanifold, unreferenced`."""
+    """Kind of the vertex; codes index `interior, boundary, degenerate, nonmanifold, unreferenced`."""
     code = np.zeros(surface.n_vertices, np.int8)
     for value, mask in enumerate((surface.boundary, degenerate, surface.nonmanifold, ~surface.referenced), start=1):
         code[mask] = value

@@ -1,8 +1,8 @@
-"""What noise of the coordinates makes of curvatures: standard deviations, propagated through analytic derivatives.
+"""Uncertainty of curvatures for noisy coordinates: standard deviations, propagated by analytic derivatives.
 
-Every coordinate of every vertex is disturbed independently. The displacement of a vertex acts on the curvature of a
-neighbour through both triangles at their edge, so contributions are added edge by edge before they are squared; that of
-the vertex itself follows, since a translation of the whole star changes nothing.
+Every coordinate of every vertex has independent noise. The displacement of a vertex acts on the curvature of a
+neighbour through both triangles at their edge, so contributions are added per edge before they are squared; the
+derivative by the vertex itself is minus their sum, since a translation of the whole star changes nothing.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from .registry import curvature_pass
 from .star import null_where
 
 _EDGES = 8192
-# **H**_p has a direction of its own if it is longer than _FLAT · √|**A**_p| and than _NOISY times the noise of the
-# coordinates, about as much of which reaches it; a shorter one is noise, and the normal stands for its direction.
+# **H**_p has a direction if it is longer than _FLAT · √|**A**_p| and than _NOISY times the noise of the coordinates,
+# which is about its own noise; the direction of a shorter one is replaced by the normal.
 _FLAT, _NOISY = 1e-9, 4.0
 
 
 def deviation(surface: Surface, noise: float | None) -> float:
-    """The standard deviation of each coordinate in the unit of computation."""
+    """Standard deviation of each coordinate, in the unit of computation."""
     given = precision(surface) if noise is None else noise
     return float(np.ldexp(given, -surface.unit_exponent))
 
@@ -69,7 +69,7 @@ def angle_defect_uncertainty(surface: Surface, noise: float | None, K: Column) -
             for at, (x, y, z, opening, pair, twice) in sides.summed(*(np.array(share) for share in shares)):
                 mixed = opening - pair
                 np.add.at(slope, at, x * x + y * y + z * z)
-                # Every triangle at p is met at both of its edges there.
+                # The sum has every triangle at p twice, once per edge at p.
                 np.add.at(bend, at, opening * opening + 2 * mixed * mixed + twice)
                 np.add.at(curving, at, mixed)
                 for total, part in zip(own, (x, y, z), strict=True):
@@ -129,7 +129,7 @@ class _Sides:
     """The half-edges of some edges, each with its face turned so that it runs from corner 0 to corner 1.
 
     corners: (m, 3) of the faces. sign: (m, 3) with which their normals enter the stars of these corners, None for +1.
-    forward: (m,) whether the half-edge runs from a to b. start: where the half-edges of each edge begin.
+    forward: (m,) flags of half-edges from a to b. start: first half-edge of each edge.
     """
 
     faces: Triangles
@@ -141,7 +141,7 @@ class _Sides:
     b: Index
 
     def summed(self, at_tail: Floats, at_head: Floats) -> Iterator[tuple[Index, Floats]]:
-        """Both ends of every edge, each with the sum of the shares (k, m) that are centred there."""
+        """Both ends of every edge, each with the sum of the shares (k, m) centred there."""
         for end, here in ((self.a, self.forward), (self.b, ~self.forward)):
             yield end, np.add.reduceat(np.where(here, at_tail, at_head), self.start, axis=1)
 
@@ -162,14 +162,14 @@ def _sides(surface: Surface) -> Iterator[_Sides]:
 
 
 def _mean_shares(sides: _Sides, along: VectorColumn, up: VectorColumn, h: Column) -> Iterator[Floats]:
-    """What each face adds to |**A**_p| ∂h_p/∂q, for the half-edge's tail as p and its head as q, and the other way.
+    """Shares of each face in |**A**_p| ∂h_p/∂q, for p at the half-edge's tail and q at its head, and the reverse.
 
     The face p, q, r adds F = −½ u·(ν × d) to u·**H**_p, u = **H**_p/|**H**_p| and d = r − q. Its normal ν = N/|N|
     changes by ∂N − ν(ν·∂N) over |N|.
     """
     t = sides.faces
     nu = [x / t.twice_area for x in t.normal]
-    # Seen from the tail the head comes next; from the head, the tail is the last corner.
+    # In the cyclic order of corners the head follows the tail; the tail is the last corner after the head.
     for end, opposite, side in ((0, t.v, t.w), (1, [-x for x in t.w], t.v)):
         center = sides.corners[:, end]
         u, normal = along[:, center], up[:, center]

@@ -1,4 +1,4 @@
-"""Normals at vertices, for estimates: from the stars, made to fit the chords to all neighbours; or the file's own."""
+"""Vertex normals for estimates: from stars, fitted to the chords of neighbourhoods, or from the file."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ from .star import null_where
 
 # Pairs of neighbours per block; temporaries stay in the second-level cache.
 _PAIRS = 16384
-# The weight of a normal that half a star made, at the boundary; inside it is 1.
+# Weight of a normal at the boundary, computed from half a star; inside it is 1.
 _ONE_SIDED = 2.0**-10
-# A full step multiplies each error of the normals by some r. What all neighbours err alike has r = −1, and the
-# condition's own term of third order alternates along with it: steps come in pairs, which leave both as they were. A
+# A full step multiplies each error of the normals by some r. An error common to all neighbours has r = −1, and the
+# third-order term of the condition alternates with it: steps come in pairs, which leave both unchanged. A
 # pair of sizes 1/(1 ± √y) multiplies any other error by (r² − y)/(1 − y). With y the roots of a Chebyshev polynomial on
 # [0, _LEFT²], the largest product of these for |r| ≤ _LEFT is the least possible.
 _LEFT = 0.75
-# Over one ring there is little to average, and two damped steps leave less.
+# Over one ring, two damped steps leave a smaller error.
 _DAMPED = (0.7, 0.7)
-# Below this determinant, in squares of the trace, chords lie so nearly in one direction that they fix no normal.
+# Below this determinant, in squares of the trace, chords are nearly parallel and determine no normal.
 _IN_LINE = 1e-6
-# Mean squares of chords below this part of the component's squared extent are lost in moments about its middle.
+# Mean squares of chords below this part of the component's squared extent cancel in moments about its middle.
 _LOST = 1e-10
 
 
@@ -63,7 +63,7 @@ def star_normal(surface: Surface, normals: Literal["mesh", "file"]) -> VectorCol
 
 
 def _unit(vector: Floats) -> VectorColumn:
-    """Vectors of unit length, null where there is none or it is no number."""
+    """Normalise vectors; null for zero and non-finite ones."""
     unit: VectorColumn = np.empty_like(vector)
     for block in slices(vector.shape[1]):
         each = vector[:, block]
@@ -74,7 +74,7 @@ def _unit(vector: Floats) -> VectorColumn:
 
 
 def _of_file(surface: Surface) -> VectorColumn:
-    """The file's normals at unit length."""
+    """Unit normals of the file."""
     given = None if surface.file is None else surface.file.vertex_normals
     if given is None:
         raise InputError(
@@ -107,7 +107,7 @@ def fitted_normal(
 
 
 def _steps(scale: Scale) -> Sequence[float]:
-    """The sizes of the steps: 1/(1 ± √y), y the roots of a Chebyshev polynomial between 0 and the square of _LEFT."""
+    """Step sizes 1/(1 ± √y), y the roots of a Chebyshev polynomial on [0, _LEFT²]."""
     if scale == rings(1):
         return _DAMPED
     pairs = 2 if scale.kind == "rings" and scale.size > 2 else 3  # many neighbours share errors sooner
@@ -118,8 +118,8 @@ def _steps(scale: Scale) -> Sequence[float]:
 class _Fit:
     """Least squares over the chords d = x_q − x_p of all neighbourhoods: Σ d ((n_p + n_q)·d) = 0.
 
-    The first residual is summed over all pairs. What a step then changes is small, and is summed from moments about the
-    middle of the component: Σ d (m_q·d) = Σ x (x·m) − x_p Σ x·m − (Σ x ⊗ m) x_p + x_p (x_p·Σ m).
+    The first residual is summed over all pairs. The small change by each step is summed from moments about the middle
+    of the component: Σ d (m_q·d) = Σ x (x·m) − x_p Σ x·m − (Σ x ⊗ m) x_p + x_p (x_p·Σ m).
     """
 
     def __init__(self, surface: Surface, scale: Scale, weight: Floats | None) -> None:
@@ -129,14 +129,14 @@ class _Fit:
         low, high = (np.array([sign * members.max(sign * x) for x in used]) for sign in (-1.0, 1.0))
         middle, extent = low + 0.5 * (high - low), (high - low).max(axis=0)
         several = members.label is not None
-        # What no face uses is in no neighbourhood, and need not be a number.
+        # Unreferenced vertices are in no neighbourhood, and may have NaN coordinates.
         centre = middle[:, members.label] if several else np.broadcast_to(middle, (3, surface.n_vertices))
         self._at = np.zeros((3, surface.n_vertices))
         np.subtract(surface.xyz, centre, out=self._at, where=surface.referenced)
         self._lost = _LOST * np.square(extent[members.label] if several else np.full(surface.n_vertices, extent[0]))
         self._square = np.empty((6, surface.n_vertices))
         self._residual = np.empty((3, surface.n_vertices))
-        # Rows that moments will not do for.
+        # Rows with too much cancellation in moments.
         self._by_pairs = surface.without_orientation.copy()
 
     def normals(self, normal: VectorColumn, steps: Sequence[float]) -> VectorColumn:
@@ -174,7 +174,7 @@ class _Fit:
         for_each(neighbourhoods(self._surface, self._scale), begin)
 
     def _add(self, change: VectorColumn, normal: VectorColumn) -> None:
-        """Add to the residual what a change of the normals adds."""
+        """Update the residual for a change of the normals."""
 
         def products(block: slice) -> list[Floats]:
             at, by = self._at[:, block], change[:, block]
@@ -200,7 +200,7 @@ class _Fit:
         for_each(neighbourhoods(self._surface, self._scale), add)
 
     def _weighted(self, count: int, columns: Callable[[slice], list[Floats]]) -> Floats:
-        """(V, count) columns, given by blocks of vertices, times the weights."""
+        """(V, count) columns, from a function of blocks of vertices, times the weights."""
         found = np.empty((self._surface.n_vertices, count))
 
         def fill(block: slice) -> None:
@@ -214,9 +214,9 @@ class _Fit:
     def _over_pairs(
         self, at: NDArray[np.intp], rows: Pattern, field: VectorColumn, normal: VectorColumn, square: Floats | None
     ) -> Floats:
-        """(3, n) Σ d ((m_p + m_q)·d) of a field m over rows that belong to n vertices, and Σ d ⊗ d where asked for.
+        """(3, n) Σ d ((m_p + m_q)·d) of a field m over the rows of n vertices, and Σ d ⊗ d if `square` is given.
 
-        Without an orientation m_q is turned as the normal at q is to that at p.
+        Without an orientation m_q gets the sign of the product of the normals at p and q.
         """
         surface, count = self._surface, np.diff(rows.indptr)
         found = np.zeros((3, len(count)))
@@ -247,7 +247,7 @@ class _Fit:
 
 
 def pair_blocks(indptr: NDArray[np.integer], size: int = _PAIRS) -> Iterator[slice]:
-    """Slices of rows that have about so many entries together, one row at least."""
+    """Slices of at least one row with about so many entries each."""
     rows = len(indptr) - 1
     start = 0
     while start < rows:

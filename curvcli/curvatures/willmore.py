@@ -1,4 +1,4 @@
-"""Willmore densities: the square of the mean curvature integrated over the star, in its discretisations."""
+"""Discretisations of the Willmore energy of stars."""
 
 from __future__ import annotations
 

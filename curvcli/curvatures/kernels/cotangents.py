@@ -1,4 +1,4 @@
-"""The Dirichlet energy of a map that is linear on every face, by cotangents, and its gradient."""
+"""Dirichlet energy of a piecewise linear map by cotangents, and its gradient."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Dirichlet:
-    """What one sweep over the faces leaves of the energy E(f).
+    """Dirichlet energy E(f) per face, its gradient, and error terms.
 
     energy: (F,) of each face, NaN where the face is degenerate. gradient: (3, V) sums over the faces that are not.
     energy_terms (F,), gradient_terms (V,): sums of the absolute terms, each divided by the sine of its angle: rounding
@@ -60,7 +60,7 @@ def dirichlet(surface: Surface, f: Floats) -> Dirichlet:
 
 
 def _add_thin(gradient: Floats, xyz: Floats, f: Floats, corners: NDArray[np.intp]) -> Floats:
-    """(n,) energies of thin faces at twice the digits, whose gradients are added to those of the vertices.
+    """(n,) energies of thin faces in double-double arithmetic; their gradients are added to those of the vertices.
 
     For two edges u, w of a face and their images F_u, F_w the cotangent formula is
     (|w|²|F_u|² − 2 u·w F_u·F_w + |u|²|F_w|²) / (8 area), which is (||w|² F_u − u·w F_w|² + |u × w|²|F_w|²) over
@@ -90,7 +90,7 @@ def _opposite_sides(f: Floats, corners: NDArray[np.intp]) -> tuple[Vector, Vecto
 
 
 def _angles(t: Triangles) -> tuple[list[Floats], list[Floats], NDArray[np.bool_]]:
-    """Cotangents and cosecants of the angles at the three corners, 0 on degenerate faces, and which those are."""
+    """Cotangents and cosecants of the angles at the three corners, 0 on degenerate faces, and the mask of these."""
     flat = t.twice_area == 0 if t.degenerate is None else t.degenerate
     over = np.divide(1.0, t.twice_area, where=~flat, out=np.zeros_like(t.twice_area))
     v, w, u = (np.sqrt(dot(edge, edge)) for edge in (t.v, t.w, t.u))

@@ -1,4 +1,4 @@
-"""Faces glued along their sides into pieces with one winding, for work that walks from face to face."""
+"""Gluing of faces along their sides into coherently wound pieces."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Gluing:
-    """Coherently wound faces and which of their sides are one edge.
+    """Coherently wound faces and the pairing of their sides.
 
     tail: (3F,) vertex at the tail of each side; side 3 f + k runs from corner k to corner k + 1 of face f.
     one, other: the two sides of every edge with n_e = 2, running opposite ways. single: all sides of the other edges.
-    twofold: (F,) faces of patches that are present as their orientable double cover, each original face twice; None
-    where there are none.
+    twofold: (F,) mask of the faces of patches replaced by their orientable double cover, each original face twice;
+    None without such patches.
     """
 
     tail: Index
@@ -32,9 +32,9 @@ class Gluing:
 
 
 def glue(surface: Surface) -> Gluing:
-    """Faces turned as the surface's orientation says; a patch without one is replaced by its double cover.
+    """Wind faces by the surface's orientation; a non-orientable patch is replaced by its double cover.
 
-    What is intrinsic lifts to the cover and is counted twice there, so no rule for one-sided patches is needed.
+    Intrinsic quantities lift to the cover and are counted twice there, so one-sided patches need no other rule.
     """
     edges, faces = surface.edges, surface.faces
     one, other = edges.pairs

@@ -1,8 +1,8 @@
-"""Normal cones of the hulls of stars by inserting direction after direction, for directions in any position.
+"""Normal cones of hulls of stars by incremental insertion of directions in any position.
 
-Which directions are extreme is decided exactly, however thin the star is: linear maps do not change it, so axes and
-directions are brought to one size, and what floating point leaves in doubt is left to exact signs. Only the angles
-between the extreme directions are rounded. The cost is n d (d + extreme directions) for d directions at n apices.
+The extreme directions are determined exactly, also for thin stars: linear maps do not change them, so axes and
+directions are scaled to one size, and exact signs decide where floating point cannot. Only the angles between extreme
+directions are rounded. The cost is n d (d + extreme directions) for d directions at n apices.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ...mesh.triangles import Floats, cross, dot
 
 # Factors beyond this power of two are applied in steps.
 _LARGEST_POWER = 1000
-# Rows to begin with, and rows to spare when they are packed.
+# Initial number of rows, and number of spare rows after packing.
 _ROOM, _SPARE = 24, 16
 
 Places = NDArray[np.intp]
@@ -27,7 +27,7 @@ Places = NDArray[np.intp]
 def hull_cone_areas(directions: Floats) -> Floats:
     """(n,) solid angle of the normal cone of the cone that directions (3, d, n) span, as `normal_cone_areas` has it.
 
-    Errors of the result are those of d angles: the solid angle moves by no more than twice as much as directions do.
+    The rounding error is that of d angles: the solid angle changes by at most twice the change of the directions.
     """
     directions = _of_one_size(directions)
     if directions.shape[1] < 3:
@@ -57,14 +57,14 @@ def _of_one_size(directions: Floats) -> Floats:
 
 
 def _round(directions: Floats) -> Floats:
-    """The images of directions of one size under the scaling of axes that makes all of them as wide, at one size."""
+    """Scale the axes of directions of one size so that all axes have equal extent; returns directions of one size."""
     for _ in range(2):
         directions = _of_one_size(directions * _powers(np.abs(directions).max(axis=1))[:, None])
     return directions
 
 
 def _powers(size: Floats) -> Floats:
-    """Powers of two that bring sizes to between ½ and 1, 1 for 0."""
+    """Powers of two that scale sizes to [½, 1], 1 for 0."""
     exponent = np.clip(np.frexp(size)[1], -_LARGEST_POWER, _LARGEST_POWER)
     factor: Floats = np.ldexp(1.0, -exponent)
     return factor
@@ -72,10 +72,10 @@ def _powers(size: Floats) -> Floats:
 
 @dataclass
 class _Hulls:
-    """The hulls of the first k directions of some cones, a row for each facet, by the direction where it begins.
+    """Hulls of the first k directions of some cones, one row per facet, indexed by the direction at its start.
 
-    cones: (m,) which of all cones they belong to. who: (r, m) the direction of each row. following: (r, m) the row of
-    the next extreme direction counterclockwise, -1 where the row holds none. normal: (3, r, m) of the facet.
+    cones: (m,) index of each cone. who: (r, m) the direction of each row. following: (r, m) the row of the next extreme
+    direction counterclockwise, -1 in an empty row. normal: (3, r, m) of the facet.
     """
 
     directions: Floats
@@ -85,12 +85,12 @@ class _Hulls:
     normal: Floats
 
     def keep(self, kept: Places) -> None:
-        """Some of the cones."""
+        """Keep some of the cones."""
         self.directions, self.normal = self.directions[:, :, kept], self.normal[:, :, kept]
         self.cones, self.who, self.following = self.cones[kept], self.who[:, kept], self.following[:, kept]
 
     def pack(self, rows: int) -> None:
-        """Room for the next directions in the place of rows that hold none; so many are filled so far."""
+        """Remove empty rows and add spare ones. rows: number of rows in use."""
         here = self.following[:rows] >= 0
         most = int(here.sum(axis=0).max())
         order = (~here).argsort(axis=0, kind="stable")[:most]
@@ -105,13 +105,13 @@ class _Hulls:
         self.who, self.following, self.normal = who, following, normal
 
     def facet(self, row: Places | int, to: Places, cones: Places) -> None:
-        """Let facets begin at a row and end at another one."""
+        """Set facets from a row to another row."""
         self.following[row, cones] = to
         a, b = (self.directions[:, self.who[end, cones], cones] for end in (row, to))
         self.normal[:, row, cones] = cross(a, b)
 
     def seen(self, k: int, rows: int) -> Mask:
-        """(rows, m) the facets on whose outer side direction k is."""
+        """(rows, m) mask of the facets with direction k on their outer side."""
         here = self.following[:rows] >= 0
         side = sides(self.normal[:, :rows], self.directions[:, k])
         at, cone = np.nonzero(here & (side == 0))
@@ -123,7 +123,7 @@ class _Hulls:
         return here & (side < 0)
 
     def insert(self, k: int, row: int, seen: Mask) -> None:
-        """Put direction k, at a new row, in the place of the facets that it sees, where it sees any."""
+        """Replace the facets that direction k sees, if any, by two facets at a new row."""
         self.who[row] = k
         cones = np.flatnonzero(seen.any(axis=0))
         if not len(cones):
@@ -142,8 +142,8 @@ class _Hulls:
 def _extreme(directions: Floats) -> tuple[Places, Places, Places]:
     """The extreme directions of the pointed ones of n cones: each one's cone, itself, and the next counterclockwise.
 
-    The hull of three directions is a cone of three facets. A further one takes the place of the facets that it sees,
-    which are neighbours; if it sees all of them, the cone is all of space.
+    The hull of three directions has three facets. A further direction replaces the facets that it sees, which are
+    neighbours; if it sees all of them, the cone is all of space.
     """
     d, n = directions.shape[1:]
     rows, room = 3, min(d, _ROOM)
@@ -172,7 +172,7 @@ def _extreme(directions: Floats) -> tuple[Places, Places, Places]:
 
 
 def _first_turn(one: Floats, two: Floats, three: Floats) -> Mask:
-    """Whether the first three directions follow each other counterclockwise."""
+    """Test whether the first three directions are in counterclockwise order."""
     side = sides(cross(one, two), three)
     doubt = np.flatnonzero(side == 0)
     side[doubt] = exact_sides(one[:, doubt], two[:, doubt], three[:, doubt])

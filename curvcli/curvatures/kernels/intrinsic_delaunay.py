@@ -1,4 +1,4 @@
-"""Intrinsic Delaunay triangulation: the same surface, cut along other straight edges between the same vertices.
+"""Intrinsic Delaunay triangulation: other straight edges of the same surface between the same vertices.
 
 Flips live on a Δ-complex: an edge may be a loop, two faces may share two edges, a face may be glued to itself.
 """
@@ -21,31 +21,31 @@ if TYPE_CHECKING:
 
 Indices = NDArray[np.integer[Any]]
 
-# An edge is flipped where cot α + cot β is below this; what is cocircular stays, or it would flip for ever.
+# An edge is flipped if cot α + cot β is below this; cocircular edges stay, or they would flip for ever.
 _LIMIT = 1e-12
-# The rounding of a sum of cotangents in twice the digits, in units of the cotangents squared.
+# Rounding of a sum of cotangents in double-double arithmetic, in units of the cotangents squared.
 _SLACK = 1e-28
-# Squares below this, in the unit of computation, have lost to underflow the digits that a flip would need.
+# Squares below this, in the unit of computation, have lost digits to underflow that a flip needs.
 _LOST = 2.0**-900
-# Flips at once: their temporaries stay in the second-level cache.
+# Flips per block: their temporaries stay in the second-level cache.
 _FLIPS_PER_BLOCK = 4096
-# Meshes made by people need a few flips per edge; what needs more than these, ten seconds' worth, is given up.
+# Practical meshes need a few flips per edge; a mesh with more than these, ten seconds' worth, is given up.
 _MOST_FLIPS, _MOST_FLIPS_PER_EDGE = 8_000_000, 20
-# What a round costs beside its flips, in flips.
+# Cost of a round without its flips, in flips.
 _ROUND = 400
 
 
 class IntrinsicTriangulation:
-    """A triangulated surface as faces glued along their sides, with inner geometry alone, flipped to Delaunay.
+    """A surface of faces glued along their sides, with intrinsic geometry only, flipped to Delaunay.
 
     Side 3 f + k of face f runs from corner k to corner k + 1. tail: (3F,) vertex where each side begins. edge: (3F,)
     edge of each side. side: (E,) one side of each edge. mates: (E,) sum of an edge's two sides, -1 where it is
     constrained: edges with n_e ≠ 2, of which each side is an edge of its own. weight: (E,) cot α + cot β.
-    flips, rounds: how many. failing: (E,) edges that should still be flipped: none, unless the flips were given up.
-    most_flips: when they are, by default at twenty per edge and eight million.
+    flips, rounds: their numbers. failing: (E,) mask of the edges still to flip: none, unless flipping was given up.
+    most_flips: limit of flips, by default twenty per edge and at most eight million.
 
-    The geometry of a face that is thin or was flipped is kept to twice the digits, so that needles of any kind keep
-    theirs and no decision wavers: at each corner the dot product of the edges that leave it, and twice the area.
+    Thin or flipped faces have their geometry in double-double arithmetic, exact enough for needles and for consistent
+    decisions: at each corner the dot product of its two edges, and twice the area.
     Termination: each flip lowers the Dirichlet energy of every function that is linear on faces.
     Source: Bobenko and Springborn, A discrete Laplace–Beltrami operator for simplicial surfaces, section 2.
     """
@@ -80,7 +80,7 @@ class IntrinsicTriangulation:
     # ------------------------------------------------------------------ geometry
 
     def _plain_cotangents(self) -> tuple[Floats, Mask]:
-        """(3F,) cotangent of the angle opposite each side, and the faces that are too thin for plain arithmetic."""
+        """(3F,) cotangent of the angle opposite each side, and the mask of faces too thin for plain arithmetic."""
         corners = self.tail.reshape(-1, 3)
         cotangent, thin = np.empty(corners.shape), np.empty(len(corners), bool)
         for block in slices(len(corners)):
@@ -93,7 +93,7 @@ class IntrinsicTriangulation:
         return cotangent.ravel(), thin
 
     def _lift(self, faces: Indices) -> None:
-        """Work out the given faces from their corners to twice the digits, those not yet known."""
+        """Compute the double-double geometry of the given faces from their corners, unless known."""
         new = self._distinct(faces[~self._lifted[faces]])
         if len(new):
             self._lifted[new] = True
@@ -104,7 +104,7 @@ class IntrinsicTriangulation:
             self._twice_area.put(new, twice_area)
 
     def _weigh(self, edges: Indices) -> None:
-        """Weights of the given edges, and whether they must be flipped."""
+        """Weights of the given edges, and flags of the edges to flip."""
         for block in slices(len(edges), _FLIPS_PER_BLOCK):
             edge = edges[block]
             here, there, free = self._sides(edge)
@@ -116,7 +116,7 @@ class IntrinsicTriangulation:
             self._weigh_thin(edge[thin])
 
     def _weigh_thin(self, edges: Indices) -> None:
-        """The same to twice the digits, for edges of thin faces."""
+        """`_weigh` in double-double arithmetic, for edges of thin faces."""
         for block in slices(len(edges), _FLIPS_PER_BLOCK):
             edge = edges[block]
             here, there, free = self._sides(edge)
@@ -134,7 +134,7 @@ class IntrinsicTriangulation:
             self.weight[edge] = np.where(free, weight, one)
 
     def _lost(self, sides: Indices) -> Mask:
-        """Sides of lifted faces across which no flip can be computed."""
+        """Mask of the sides of lifted faces across which no flip can be computed."""
         lost: Mask = self._lifted[sides // 3]
         lifted = np.flatnonzero(lost)
         known = sides[lifted]
@@ -142,7 +142,7 @@ class IntrinsicTriangulation:
         return lost
 
     def _sides(self, edges: Indices) -> tuple[Indices, Indices, Mask]:
-        """Both sides of the given edges, the one side twice where an edge is constrained, and where it is not."""
+        """Both sides of the given edges, one side twice for a constrained edge, and the mask of unconstrained ones."""
         here = self.side[edges]
         free = self.mates[edges] >= 0
         return here, np.where(free, self.mates[edges] - here, here), free
@@ -150,13 +150,13 @@ class IntrinsicTriangulation:
     # ------------------------------------------------------------------ flips
 
     def _flip_all(self, most: int) -> None:
-        """Flip until no edge fails; in each round those that have precedence in both of their faces."""
+        """Flip until no edge fails; each round flips the edges with precedence in both of their faces."""
         first = np.full(len(self._lifted), np.uint32(0xFFFFFFFF))
         todo: Indices = np.flatnonzero(self.failing)
         while len(todo) and self.flips + _ROUND * self.rounds < most:
             here = self.side[todo]
             f, g = here // 3, (self.mates[todo] - here) // 3
-            # An odd factor permutes the numbers below 2³²: precedence is arbitrary, never equal, and repeatable.
+            # An odd factor permutes the numbers below 2³²: precedence is pseudo-random, unique and repeatable.
             precedence = (todo.astype(np.uint32) + np.uint32(self.rounds)) * np.uint32(2654435761)
             np.minimum.at(first, f, precedence)
             np.minimum.at(first, g, precedence)
@@ -170,7 +170,7 @@ class IntrinsicTriangulation:
             self.rounds += 1
 
     def _flip(self, edges: Indices) -> None:
-        """Flip edges no two of which share a face.
+        """Flip edges without common faces.
 
         The faces p q r and q p s at edge p q are laid out in the plane with p q as axis, where the corner products and
         areas are the coordinates of r and s; they become q r s and p s r.
@@ -243,14 +243,14 @@ class IntrinsicTriangulation:
         return squares
 
     def degenerate_corners(self) -> Mask:
-        """(V,) corners of faces without area, twice area ≤ 4ε · (longest edge)², that no flip could mend."""
+        """(V,) mask of the corners of faces without area, twice area ≤ 4ε · (longest edge)², after all flips."""
         known = np.flatnonzero(self._lifted)
         c = [self._products.at(3 * known + k).high for k in range(3)]
         longest = c[0] + c[1] + c[2] - np.minimum(np.minimum(c[0], c[1]), c[2])
         return self._corners(known[self._twice_area.high[known] <= 4 * EPSILON * longest])
 
     def unfinished_corners(self) -> Mask:
-        """(V,) corners of faces at edges that still fail."""
+        """(V,) mask of the corners of faces at edges that still fail."""
         side = self.side[self.failing]
         return self._corners(np.concatenate([side, self.mates[self.failing] - side]) // 3)
 
@@ -261,7 +261,7 @@ class IntrinsicTriangulation:
 
 
 def _any_large(cotangents: list[Floats]) -> Mask:
-    """Where one of three cotangents is too large for plain arithmetic, or undefined."""
+    """Mask of the faces with a cotangent too large for plain arithmetic, or undefined."""
     largest = np.maximum(np.maximum(abs(cotangents[0]), abs(cotangents[1])), abs(cotangents[2]))
     large: Mask = ~(largest <= THIN_COTANGENT)
     return large

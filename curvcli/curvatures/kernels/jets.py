@@ -1,7 +1,7 @@
-"""Local fits: the height of the surface over the tangent plane of a vertex as a polynomial, by least squares.
+"""Least-squares fits of a polynomial to the height over the tangent plane of a vertex.
 
-Degree 2 is always fitted. Of degrees 3 and 4 as much is kept as the residuals tell from noise, so that on a smooth
-surface the fit has the small bias of degree 4, and on a noisy one the small variance of degree 2.
+Degree 2 is always fitted. Degrees 3 and 4 are weighted by their signal against the residuals, so that the fit has the
+small bias of degree 4 on a smooth surface, and the small variance of degree 2 on a noisy one.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _LOST, _SINGULAR, _WEAK = 1e-12, 1e4, 1e4
 _NOISE = 3.0
 # Heights have the rounding of a few operations each.
 _ROUNDING = 16 * EPSILON
-# Points beyond the terms without which the residuals tell nothing about the noise.
+# Least number of points beyond the terms for an estimate of the noise from the residuals.
 _SPARE = 4
 
 
@@ -46,9 +46,9 @@ class Jets:
     rounding: Floats
 
 
-@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # what is not determined may come to anything
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # undetermined values are masked later
 def fit(given: Moments) -> Jets:
-    """Fit all neighbourhoods; by normal equations, all vertices side by side."""
+    """Fit all neighbourhoods by normal equations, vectorised over vertices."""
     lower, sound = _factor(given)
     condition = _condition(given, lower)
     determined = sound[:QUADRATIC].all(axis=0) & (condition < _SINGULAR)
@@ -66,7 +66,7 @@ def fit(given: Moments) -> Jets:
     kept[_CUBIC:] = 0.0
     found = _solve(lower, kept, np.zeros((_COUNT - _CUBIC, len(determined))))
     expected = _quartic(found)
-    # What is expected of degree 4 is taken away from the heights before the groups are weighed.
+    # The expected terms of degree 4 are subtracted from the heights before the groups are weighted.
     rest = terms - np.einsum("kij,kj->ij", lower[_CUBIC:_COUNT, :_COUNT], expected)
     rest[QUADRATIC:_CUBIC] *= third * _signal(rest[QUADRATIC:_CUBIC], residual, freedom)
     rest[_CUBIC:] *= fourth * _signal(rest[_CUBIC:], residual, freedom)
@@ -105,7 +105,7 @@ def _factor(given: Moments) -> tuple[Floats, Mask]:
 
 
 def _signal(terms: Floats, residual: Floats, freedom: Floats) -> Floats:
-    """(m,) the part of a group of terms (k, m) that is kept: 1 − noise/F, at least 0."""
+    """(m,) weight of a group of terms (k, m): 1 − noise/F, at least 0."""
     size = np.einsum("ij,ij->j", terms, terms)
     spare = np.maximum(freedom, 1.0)
     noise = _NOISE * (1 + 12 / spare) * len(terms) * residual / spare
@@ -114,7 +114,7 @@ def _signal(terms: Floats, residual: Floats, freedom: Floats) -> Floats:
 
 
 def _solve(lower: Floats, terms: Floats, expected: Floats) -> Floats:
-    """(15, m) coefficients from the terms in the orthonormal basis, with what was expected of degree 4 put back."""
+    """(15, m) coefficients from the terms in the orthonormal basis, plus the expected terms of degree 4."""
     found = terms.copy()
     for k in reversed(range(_COUNT)):
         found[k] /= lower[k, k]
@@ -124,7 +124,7 @@ def _solve(lower: Floats, terms: Floats, expected: Floats) -> Floats:
 
 
 def _quartic(found: Floats) -> Floats:
-    """(5, m) the terms of degree 4 that follow from those of degree 2 where the curvature is the same all around.
+    """(5, m) the terms of degree 4 that follow from those of degree 2 for constant curvature.
 
     With S the Hessian they are (xᵀ S x)(xᵀ S² x)/8: exact on spheres and cylinders.
     """
@@ -141,7 +141,7 @@ def _quartic(found: Floats) -> Floats:
 def _condition(given: Moments, lower: Floats) -> Floats:
     """(m,) √(tr N tr N⁻¹) of the normal matrix N in 1, x/r, y/r, x²/r², √2 xy/r², y²/r², r² the mean of x² + y².
 
-    It is the condition of the design in Frobenius's norm, the same whichever way the axes are turned.
+    This is the condition of the design in the Frobenius norm, invariant under rotation of the axes.
     """
     part = lower[:QUADRATIC, :QUADRATIC]
     inverse = _inverse(part)
@@ -156,7 +156,7 @@ def _condition(given: Moments, lower: Floats) -> Floats:
 def _dilution(lower: Floats, begin: int, end: int) -> Floats:
     """(m,) tr S⁻¹N/p of the p terms of a degree, N their part of the normal matrix, S what lower degrees leave of it.
 
-    It says how much determining them costs, 1 at best; no linear map of the coordinates changes it.
+    It is the variance factor of these terms, 1 at best, invariant under linear maps of the coordinates.
     """
     part = np.einsum("ikj,klj->ilj", _inverse(lower[begin:end, begin:end]), lower[begin:end, :begin])
     return np.asarray(1 + np.einsum("ikj,ikj->j", part, part) / (end - begin), np.float64)

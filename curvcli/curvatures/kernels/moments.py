@@ -1,7 +1,7 @@
-"""Moments of the neighbourhoods of vertices in their tangent frames: all that a local fit needs to know of the points.
+"""Moments of neighbourhoods in tangent frames, the input of local fits.
 
-Neighbourhoods of about the same size are laid out as one table, filled up with the vertex itself, which adds nothing;
-a small matrix product per vertex then makes all sums Σ xⁱ yʲ and Σ z yʲ xⁱ at once.
+Neighbourhoods of about the same size form one table, padded with the vertex itself, which adds nothing; a small matrix
+product per vertex computes all sums Σ xⁱ yʲ and Σ z yʲ xⁱ at once.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from .tensor import frame
 _PRODUCT, _BESIDE = 8, 4
 # The factors of all products: 1, x, …, x⁸, z on one side; 1, y, …, y⁸, z, zy, …, zy⁴ on the other.
 _POWERS = 2 * _PRODUCT + 4 + _BESIDE
-# Entries of a table that stay in the second-level cache with all of their powers; vertices that are solved together.
+# Entries of a table that fit into the second-level cache with all powers; vertices solved together.
 _ENTRIES, _ROWS = 1 << 14, 1 << 13
 # The difference of the squares of length and width, as a part of their sum, beyond which a strip is narrow.
 _NARROW = 0.5
-# Neighbourhoods are filled up to a multiple of this.
+# Neighbourhoods are padded to a multiple of this.
 _STEP = 8
 
 
@@ -65,8 +65,8 @@ class Moments:
 
 
 def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> Iterator[Callable[[], Moments]]:
-    """Functions that work out the moments of neighbourhoods, each of some vertices, together of all manifold vertices
-    with a normal and at least so many points.
+    """Yield functions that compute the moments of some neighbourhoods, together of all manifold vertices with a normal
+    and at least so many points.
 
     star_vector: (3, V) vector areas of the stars. The normal is that of the vertex and its neighbours together; where
     the patch has no orientation, that of the vertex alone.
@@ -94,7 +94,7 @@ def moments(surface: Surface, scale: Scale, star_vector: Floats, least: int) -> 
 def _of_rows(
     surface: Surface, frames: Floats, shadow: Floats, rows: Pattern, first: int, chosen: NDArray[np.intp]
 ) -> Moments:
-    """The moments of the chosen rows of a block, which are in the order of their sizes."""
+    """The moments of the chosen rows of a block, sorted by size."""
     vertex, size = chosen + first, np.diff(rows.indptr)[chosen]
     width = -(-size // _STEP) * _STEP
     axes = frames[:, :, vertex]
@@ -112,7 +112,7 @@ def _of_rows(
 
 
 def _table(rows: Pattern, chosen: NDArray[np.intp], vertex: NDArray[np.intp], width: int) -> NDArray[np.intp]:
-    """(m, width) the points of each row, filled up with the vertex itself; in the type that numpy gathers by."""
+    """(m, width) the points of each row, padded with the vertex itself, as intp for fast gathers."""
     begin, end = rows.indptr[chosen][:, None], rows.indptr[chosen + 1][:, None]
     place = begin + np.arange(width, dtype=begin.dtype)
     inside = place < end
@@ -122,7 +122,7 @@ def _table(rows: Pattern, chosen: NDArray[np.intp], vertex: NDArray[np.intp], wi
 def _fill(
     surface: Surface, axes: Floats, vertex: NDArray[np.intp], table: NDArray[np.intp], powers: Floats, sums: Floats
 ) -> None:
-    """Write the sums (10, 14, m) of a table of points, by way of their powers; may turn the axes (3, 3, m)."""
+    """Write the sums (10, 14, m) of a table of points from their powers; may rotate the axes (3, 3, m)."""
     x, y = powers[: _PRODUCT + 2], powers[_PRODUCT + 2 :]
     x[0] = y[0] = 1.0
     offset = [at.take(table) - at[vertex][:, None] for at in surface.xyz]
@@ -143,7 +143,7 @@ def _fill(
 
 
 def _turn(axes: Floats, x: Floats, y: Floats) -> None:
-    """Turn the axes of points on a narrow strip along it: there they determine a fit as well as others."""
+    """Rotate the axes along a narrow strip of points, for a well-conditioned fit."""
     xx, yy, xy = (np.einsum("ij,ij->i", a, b) for a, b in ((x, x), (y, y), (x, y)))
     narrow = np.flatnonzero(np.hypot(xx - yy, 2 * xy) > _NARROW * (xx + yy))
     if not len(narrow):

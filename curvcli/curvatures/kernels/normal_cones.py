@@ -1,8 +1,8 @@
-"""Normal cones of the convex hulls of stars: how much of the sphere of directions a vertex supports.
+"""Normal cones of the convex hulls of stars, as solid angles.
 
-Directions come as (3, d, n): d directions at each of n apices, and everything is computed for all apices at once. Few
-directions in general position have their facets counted out, at a cost of n d³ simple operations; the hulls of the
-others are built direction by direction, with exact decisions.
+Directions have shape (3, d, n): d directions at each of n apices, and all apices are computed at once. Few directions
+in general position use an enumeration of facets, n d³ simple operations; the other hulls are built incrementally
+with exact signs.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from ...mesh.topology import Mask
 from ...mesh.triangles import EPSILON, Floats, cross, dot
 from .hulls import hull_cone_areas
 
-# Up to so many directions, all their determinants cost less than building the hull.
+# Up to so many directions, all determinants cost less than an incremental hull.
 _COUNTED = 16
 # The error bound of a determinant of unit vectors, with room.
 _COPLANAR = 32 * EPSILON
-# Squares below this have lost digits to the end of the range of doubles.
+# Squares below this have lost digits to underflow.
 _UNDERFLOW = float(np.finfo(np.float64).tiny) / EPSILON
 
 
@@ -39,7 +39,9 @@ def normal_cone_areas(directions: Floats, hint: Floats | None = None) -> Floats:
 
 
 def _by_facets(directions: Floats) -> tuple[Floats, Mask]:
-    """The same where no three directions are coplanar to rounding, and where some are.
+    """Compute the areas for directions in general position, and the mask of the undecided cones.
+
+    Undecided cones have three directions that are coplanar to rounding.
 
     Two directions span a facet if their determinants with all others have one sign. A cone with none is all of space.
     """

@@ -1,4 +1,4 @@
-"""Sums over the stars of all vertices, in one blocked sweep over the faces."""
+"""Star sums of all vertices, in one blocked sweep over the faces."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ...mesh.topology import Index, Mask, faces_at
 from ...mesh.triangles import Floats, Triangles, cross, triangles
 from ...support.blocks import ENTRIES, slices
 
-# Stars of more faces are summed in pairs.
+# Stars with more faces are summed pairwise.
 LARGE_STAR = 32
 
 
 @dataclass(frozen=True)
 class StarSums:
-    """What one sweep over the faces leaves at vertices and faces; see the passes that publish it."""
+    """Sums at vertices and values at faces from one sweep; see the passes that publish them."""
 
     angle_sum: Floats
     area: Floats
@@ -33,7 +33,7 @@ class StarSums:
 def star_sums(surface: Surface) -> StarSums:
     """Angle sums, areas, vector areas, curvature vectors and extents of all stars in one blocked sweep.
 
-    Each star's faces enter its vector area with the sign that orients the star (`Surface.corner_sign`). The curvature
+    The faces of a star have the sign in its vector area that orients the star (`Surface.corner_sign`). The curvature
     vector is minus the gradient of the star's area; the gradient of a triangle's area with respect to a corner is half
     the opposite edge turned within its plane, ½ ν × d.
     """
@@ -79,7 +79,7 @@ def _gradient_terms(t: Triangles) -> tuple[list[Floats], list[Floats]]:
 
 
 def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
-    """Sum large stars again in pairs: one after the other, thousands of faces would cost the last digits.
+    """Sum large stars again pairwise: a running sum of thousands of faces would lose the last digits.
 
     sums: rows of angles, areas, vector areas and curvature vectors.
     """
@@ -108,6 +108,6 @@ def _resum_large_stars(surface: Surface, *sums: Floats) -> None:
 
 
 def _mark_coincident(coincident: Mask, t: Triangles) -> None:
-    """Mark corners that lie on another corner of their face: their angle there has no meaning."""
+    """Mark corners that coincide with another corner of their face: their angle is undefined."""
     for k, corner in enumerate(t.corners):
         coincident[corner[t.no_angle(k)]] = True

@@ -1,4 +1,4 @@
-"""Symmetric tensors at vertices: their parts within the tangent planes."""
+"""Tangential parts of symmetric tensors at vertices."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import numpy as np
 from ...mesh.triangles import EPSILON, Floats, cross, dot
 from ...support.arrays import VectorColumn
 
-# The six entries of a symmetric 3 × 3 matrix, and where each of the nine stands among them.
+# The six entries of a symmetric 3 × 3 matrix, and the position of each of the nine among them.
 ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 WHERE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
-# Components of a direction are equally large to rounding.
+# Components of a direction whose ratio is within this of 1 are equally large.
 _EQUAL = 1 - 64 * EPSILON
 
 
@@ -48,14 +48,14 @@ def tangential(tensor: Floats, normal: VectorColumn) -> tuple[Floats, Floats, Fl
     """
     u, v, uu, vv, uv = _entries(tensor, normal)
     half = 0.5 * (uu - vv)
-    # Turned by half the angle of (half, uv), u goes to the eigenvector of the larger eigenvalue.
+    # The rotation by half the angle of (half, uv) takes u to the eigenvector of the larger eigenvalue.
     turn = 0.5 * np.arctan2(uv, half)
     larger = np.cos(turn) * u + np.sin(turn) * v
     return 0.5 * (uu + vv), np.hypot(half, uv), larger, np.array(cross(normal, larger))
 
 
 def line(vector: VectorColumn) -> VectorColumn:
-    """The vector or its opposite: the first component that is largest, to rounding, is made positive."""
+    """Choose the sign of a vector so that its first largest component, to rounding, is positive."""
     size = np.abs(vector)
     largest = size >= _EQUAL * size.max(axis=0)
     leading = np.where(largest[0], vector[0], np.where(largest[1], vector[1], vector[2]))
