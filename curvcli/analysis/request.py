@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks.listing import known_checks
+from ..checks.catalogue import named_checks
 from ..curvatures.catalogue import at_scales, defaults, resolve
 from ..curvatures.engine import schedule
 from ..curvatures.quantity import AT_SCALE, CELL_AREAS
@@ -99,7 +99,7 @@ class Request:
     @cached_property
     def named_checks(self) -> list[str] | None:
         """Names of the checks; None stands for all whose needs the chosen passes meet."""
-        return None if self.checks is None else known_checks(self.checks)
+        return None if self.checks is None else named_checks(self.checks)
 
     @property
     def labels(self) -> str | NDArray[np.integer[Any]] | None:

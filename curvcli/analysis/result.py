@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import Check, rules
-from ..checks.listing import summarise_checks
+from ..checks.base import Check, CheckRule
+from ..checks.catalogue import identities
+from ..checks.summary import summarise_checks
 from ..curvatures.catalogue import at_scales
 from ..curvatures.engine import evaluate, in_file_unit, prepare, schedule
 from ..curvatures.quantity import AT_SCALE, CELL_AREA, Element
@@ -60,7 +61,7 @@ class Result:
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
         self.configuration: Configuration | None = None
-        self._rules = self._applicable_rules() if checks is None else [rules[name] for name in checks]
+        self._rules = self._applicable_rules() if checks is None else [identities()[name] for name in checks]
         wanted = {
             *self.chosen,
             *_ALWAYS,
@@ -102,9 +103,9 @@ class Result:
         flags = (name for name in self._closure if passes.quantity(name).kind == "flag")
         return at_scales(flags, self.settings)
 
-    def _applicable_rules(self) -> list[Any]:
+    def _applicable_rules(self) -> list[CheckRule]:
         """Checks whose needs the chosen passes meet."""
-        return [rule for rule in rules.values() if self._closure.issuperset(rule.needs)]
+        return [rule for rule in identities().values() if self._closure.issuperset(rule.needs)]
 
     # ------------------------------------------------------------------ columns
 

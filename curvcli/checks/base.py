@@ -6,6 +6,7 @@ import inspect
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -84,9 +85,9 @@ class CheckRule:
     bound: str = ""
     failure: str = ""
 
-    def __reduce__(self) -> tuple[Callable[[str], CheckRule], tuple[str]]:
+    def __reduce__(self) -> tuple[Callable[[str, str], CheckRule], tuple[str, str]]:
         """Pickle a rule by its name."""
-        return rule_of, (self.name,)
+        return _rule_of, (self.function.__module__, self.name)
 
     def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
         """Evaluate the check on every group."""
@@ -121,12 +122,14 @@ class CheckRule:
         return Check(self.name, scope, "pass", value, expected, residual, tolerance, detail)
 
 
-rules: dict[str, CheckRule] = {}
+# By name, in the order of import; `catalogue.identities` gives the order of the report.
+registered: dict[str, CheckRule] = {}
 
 
-def rule_of(name: str) -> CheckRule:
+def _rule_of(module: str, name: str) -> CheckRule:
     """The registered check with a name."""
-    return rules[name]
+    import_module(module)
+    return registered[name]
 
 
 def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., Outcome]], CheckRule]:
@@ -139,7 +142,7 @@ def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Call
         needs = tuple(inspect.signature(function).parameters)[2:]
         statement = inspect.cleandoc(function.__doc__ or "")
         rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure)
-        rules[rule.name] = rule
+        registered[rule.name] = rule
         return rule
 
     return register

@@ -29,15 +29,26 @@ _SUFFIXES = {".json": "json", ".xml": "junit", ".sarif": "sarif"}
 _TOLD = 20
 
 
+class _Requirements(click.Option):
+    """`--require`, with the names of all requirements in its help."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        from ..checks.requirements.catalogue import requirements
+
+        more = ", ".join(each.usage for each in requirements().values() if not each.default)
+        default = ", ".join(each.usage for each in requirements().values() if each.default)
+        names, _ = super().get_help_record(ctx) or ("", "")
+        return names, f"Additional requirements: {more}; repeatable. By default: {default}."
+
+
 @click.command("check", short_help="Check identities and requirements for CI, by exit code.")
 @click.argument("meshes", metavar="MESH...", nargs=-1)
 @click.option(
     "--require",
     metavar="NAME[,NAME]",
     multiple=True,
-    help="Additional requirements: closed, oriented, outward, connected, convex, genus=N, euler=N, components=N, "
-    "no-unreferenced, no-duplicate-vertices, minimal=TOL, cmc=TOL; repeatable. By default: manifold, "
-    "consistent-winding, no-degenerate, no-duplicate-faces.",
+    cls=_Requirements,
+    help="Additional requirements; repeatable.",
 )
 @click.option("--allow", metavar="NAME[,NAME]", multiple=True, help="Skip a requirement or an identity; repeatable.")
 @click.option(

@@ -54,15 +54,15 @@ def _formats() -> str:
 
 
 def _checks() -> str:
-    from ..checks import rules
-    from ..checks.requirements import DEFAULT, kinds
+    from ..checks.catalogue import identities
+    from ..checks.requirements.catalogue import requirements
     from ..curvatures.catalogue import load_passes
 
     load_passes()
-    identities = [(name, " ".join(rule.statement.split("\n\n")[0].split())) for name, rule in rules.items()]
-    required = [(one.usage + (" *" if one.name in DEFAULT else ""), one.statement) for one in kinds.values()]
+    stated = [(name, " ".join(rule.statement.split("\n\n")[0].split())) for name, rule in identities().items()]
+    required = [(each.usage + (" *" if each.default else ""), each.statement) for each in requirements().values()]
     return (
-        _table("Identities, which hold on every mesh up to rounding", identities)
+        _table("Identities, which hold on every mesh up to rounding", stated)
         + "\nTolerances are derived rounding-error bounds, not chosen constants. A pass proves the arithmetic and the\n"
         "counting. Use requirements to check that the mesh is sound, or the one you meant.\n\n"
         + _table("Requirements (check --require, --allow); * required by default", required)

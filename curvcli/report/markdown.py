@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 from ..analysis.configuration import sentence
-from ..checks.base import rules
+from ..checks.catalogue import identities
 from ..support.words import escape_text
 from .model import Report
 from .phrases import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
@@ -68,7 +68,8 @@ def _checks(report: Report) -> str:
 
 
 def _statement(name: str) -> str:
-    return rules[name].statement.split("\n")[0] if name in rules else ""
+    known = identities()
+    return known[name].statement.split("\n")[0] if name in known else ""
 
 
 def _warnings(report: Report) -> Iterable[str]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from curvcli.checks import CheckRule, rules
-from curvcli.checks.requirements import DEFAULT, kinds
+from curvcli.checks.base import CheckRule
+from curvcli.checks.catalogue import identities
+from curvcli.checks.requirements.catalogue import requirements
 from curvcli.curvatures.catalogue import load_passes
 
 _INTRODUCTION = """\
@@ -79,10 +80,10 @@ carried from face to face: it changes where the dihedral angles of surface and i
 def page() -> str:
     """The documentation page of all checks, in Markdown."""
     load_passes()  # plug-ins may bring identities of their own
-    parts = [_INTRODUCTION, "## Identities\n", *(_identity(rule) for rule in rules.values())]
+    parts = [_INTRODUCTION, "## Identities\n", *(_identity(rule) for rule in identities().values())]
     rows = [
-        f"| `{one.usage}`{' *' if name in DEFAULT else ''} | {_cell(one.statement)} | {_cell(one.remedy)} |"
-        for name, one in kinds.items()
+        f"| `{each.usage}`{' *' if each.default else ''} | {_cell(each.statement)} | {_cell(each.remedy)} |"
+        for each in requirements().values()
     ]
     return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows), _CRITICAL, _ELSEWHERE])
 

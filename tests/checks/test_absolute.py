@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.checks import rules
 from curvcli.checks.base import Check
+from curvcli.checks.catalogue import identities
 from tests.helpers import meshes
 from tests.helpers.meshes import Mesh, mesh
 
@@ -45,7 +45,7 @@ def test_too_little_fails_on_one_sided_surfaces_too() -> None:
     surface = meshes.of_sample("klein_bottle", size=400).surface()
     K = curvcli.passes.K(surface)
     plus = curvcli.passes.absolute_curvature(surface)["K_plus"]
-    rule = rules["total_absolute_curvature"]
+    rule = identities()["total_absolute_curvature"]
     for factor, status in ((1.0, "pass"), (0.1, "fail")):
         columns = {"K_plus": factor * plus, "K_minus": factor * plus - factor * K}
         assert rule.run(surface, surface.whole, columns)[0].status == status

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.checks import rules
+from curvcli.checks.catalogue import identities
 from curvcli.curvatures.catalogue import loaded
 from curvcli.curvatures.engine import evaluate
 from tests.helpers import meshes
@@ -42,7 +42,7 @@ def test_they_are_the_bounds_that_are_said(name: str) -> None:
 def test_less_absolute_curvature_than_there_must_be_is_noticed() -> None:
     """A torus of revolution is tight: a little less at one vertex is too little."""
     surface = sample("torus").surface
-    rule = rules["total_absolute_curvature"]
+    rule = identities()["total_absolute_curvature"]
     found = evaluate(loaded(), surface, rule.needs)
     (check,) = rule.run(surface, surface.whole, found)
     assert (check.status, check.expected) == ("pass", pytest.approx(8 * math.pi))

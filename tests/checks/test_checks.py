@@ -10,7 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 import curvcli
-from curvcli.checks import Check, rules
+from curvcli.checks.base import Check
+from curvcli.checks.catalogue import identities
 from curvcli.curvatures.catalogue import loaded
 from curvcli.curvatures.engine import evaluate
 from curvcli.errors import InputError
@@ -34,13 +35,13 @@ GUARDS = {
 
 
 def columns(surface: Surface) -> Columns:
-    wanted = {need for rule in rules.values() for need in rule.needs}
+    wanted = {need for rule in identities().values() for need in rule.needs}
     return evaluate(loaded(), surface, wanted)
 
 
 def run(name: str, surface: Surface, found: Columns) -> list[Check]:
     groups = [surface.whole, *([surface.components] if surface.components.count > 1 else [])]
-    return [check for group in groups for check in rules[name].run(surface, group, found)]
+    return [check for group in groups for check in identities()[name].run(surface, group, found)]
 
 
 def disturbed(found: Columns, column: str, element: int, component: int | None, surface: Surface) -> Columns:
@@ -130,7 +131,7 @@ def test_every_public_integral_is_guarded_by_a_check() -> None:
     """A column whose sum is an identity's side is named in the needs of some check."""
     from curvcli.curvatures.registry import passes
 
-    needed = {need for rule in rules.values() for need in rule.needs}
+    needed = {need for rule in identities().values() for need in rule.needs}
     assert {q.name for q in passes.quantities() if q.name in GUARDS} <= needed
 
 
@@ -147,7 +148,7 @@ def test_an_undefined_value_is_not_passed_over(column: str) -> None:
 
 
 def told(surface: Surface, groups: Groups, found: Columns, name: str) -> list[tuple[str, str]]:
-    return [(check.status, check.detail) for check in rules[name].run(surface, groups, found)]
+    return [(check.status, check.detail) for check in identities()[name].run(surface, groups, found)]
 
 
 def test_each_piece_is_told_of_its_own_vertices() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 import curvcli
 from curvcli.api import Analysis
-from curvcli.checks.requirements import parse
+from curvcli.checks.requirements.catalogue import parse
 from curvcli.curvatures.catalogue import loaded
 from curvcli.curvatures.engine import evaluate
 from curvcli.report.compare.stored import decode
@@ -46,7 +46,7 @@ def analysis(name: str, size: int, unit: float) -> Analysis:
 
 def problem(found: Analysis, requirement: str) -> str:
     one = parse([requirement])[0]
-    needs = set(one.kind.needs) - {"mean"}
+    needs = set(one.requirement.needs) - {"mean"}
     given = {**evaluate(loaded(), found.surface, needs, known=found.columns), "mean": found.request.mean}
     return one.problem(found.surface, given)
 

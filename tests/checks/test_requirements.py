@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from curvcli.api import analyze
-from curvcli.checks.requirements import DEFAULT, kinds
+from curvcli.checks.requirements.catalogue import defaults, requirements
 from curvcli.errors import UsageError
 from curvcli.report.check.judge import plan
 from tests.helpers import meshes
@@ -85,7 +85,7 @@ CASES: list[tuple[str, Make, Make, str]] = [
 def test_met_and_unmet(name: str, good: Make, bad: Make, message: str) -> None:
     met = outcome(judged(good(), name), name)
     assert (met.status, met.kind) == ("pass", "requirement")
-    assert met.message == kinds[name.partition("=")[0]].statement
+    assert met.message == requirements()[name.partition("=")[0]].statement
     unmet = judged(bad(), name)
     assert outcome(unmet, name).status == "fail"
     assert outcome(unmet, name).message.startswith(message)
@@ -93,7 +93,11 @@ def test_met_and_unmet(name: str, good: Make, bad: Make, message: str) -> None:
 
 
 def test_every_requirement_has_a_case() -> None:
-    assert {case[0].partition("=")[0] for case in CASES} | {"consistent-winding"} == kinds.keys()
+    """Here, or in a file of its own beside this one."""
+    named = {case[0].partition("=")[0] for case in CASES} | {"consistent-winding"}
+    others = "".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_*.py"))
+    assert named <= requirements().keys()
+    assert {name for name in requirements() if f'"{name}' in others} == requirements().keys()
 
 
 def test_reversed_faces_fail_consistent_winding() -> None:
@@ -146,7 +150,7 @@ def test_polygons_are_named_as_the_file_counts_them(tmp_path: Path) -> None:
 
 def test_defaults_and_allow() -> None:
     names = [one.name for one in plan().requirements]
-    assert names == list(DEFAULT) == ["manifold", "consistent-winding", "no-degenerate", "no-duplicate-faces"]
+    assert names == defaults() == ["manifold", "consistent-winding", "no-degenerate", "no-duplicate-faces"]
     some = plan(["closed, genus=2", "genus=2"], ["manifold,no-degenerate", "genus", "holonomy"])
     assert [one.name for one in some.requirements] == ["consistent-winding", "no-duplicate-faces", "closed"]
     assert "holonomy" not in some.identities

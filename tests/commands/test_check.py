@@ -121,7 +121,8 @@ def test_4_no_folder_for_the_output(tmp_path: Path) -> None:
 
 
 BROKEN = """
-from curvcli.checks.requirements import topology, kinds
+from curvcli.checks.requirements.catalogue import requirements
+kinds = requirements()
 from dataclasses import replace
 def broken(analysis): raise RuntimeError("a defect\\nof ours")
 kinds["connected"] = replace(kinds["connected"], test=broken)

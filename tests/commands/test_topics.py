@@ -11,8 +11,8 @@ import pytest
 from click.testing import CliRunner
 
 import curvcli as package
-from curvcli.checks import rules
-from curvcli.checks.requirements import kinds
+from curvcli.checks.catalogue import identities
+from curvcli.checks.requirements.catalogue import requirements
 from curvcli.commands.main import cli
 from curvcli.commands.names import COMMANDS
 from curvcli.commands.schemas import SCHEMAS, path_of
@@ -52,8 +52,8 @@ def test_as_it_is_typed() -> None:
 
 def test_topics_are_complete() -> None:
     _ = package.passes
-    assert all(f"\n{name} " in TOPICS["checks"].text() for name in rules)
-    assert all(f"\n{kind.usage}" in TOPICS["checks"].text() for kind in kinds.values())
+    assert all(f"\n{name} " in TOPICS["checks"].text() for name in identities())
+    assert all(f"\n{kind.usage}" in TOPICS["checks"].text() for kind in requirements().values())
     assert all(f"\n{quantity.name} " in TOPICS["quantities"].text() for quantity in passes.quantities())
     assert all(f"\n{suffix} " in TOPICS["formats"].text() for suffix in (*FORMATS, ".obj", ".ply", ".stl"))
     assert all(f"\n{code} " in TOPICS["exit-codes"].text() for code in EXIT_CODES)

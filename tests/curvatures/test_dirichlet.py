@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import curvcli
-from curvcli.checks import Check, rules
+from curvcli.checks.base import Check
+from curvcli.checks.catalogue import identities
 from curvcli.curvatures.catalogue import loaded
 from curvcli.curvatures.engine import evaluate
 from curvcli.curvatures.kernels.cotangents import dirichlet
@@ -19,7 +20,7 @@ from tests.helpers.strategies import any_mesh
 
 
 def the_check(surface: Surface, **disturbed: object) -> Check:
-    rule = rules["dirichlet"]
+    rule = identities()["dirichlet"]
     columns = {**evaluate(loaded(), surface, rule.needs), **disturbed}
     return rule.run(surface, surface.whole, columns)[0]
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 
 from curvcli import analyze, load
-from curvcli.checks import rules
+from curvcli.checks.catalogue import identities
 from curvcli.curves import Turning, boundary_loops, loop_table
 from curvcli.curves.darboux import Darboux
 from tests.helpers import meshes, strategies
@@ -203,7 +203,7 @@ def test_fenchel_is_tight_on_convex_plane_curves() -> None:
 def test_fenchel_holds_on_every_surface(given_mesh: Mesh) -> None:
     surface = given_mesh.surface()
     for groups in (surface.whole, surface.components):
-        assert {c.status for c in rules["fenchel"].run(surface, groups, {})} <= {"pass", "not_applicable"}
+        assert {c.status for c in identities()["fenchel"].run(surface, groups, {})} <= {"pass", "not_applicable"}
 
 
 def test_fenchel_fails_where_angles_are_lost(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -212,5 +212,5 @@ def test_fenchel_fails_where_angles_are_lost(monkeypatch: pytest.MonkeyPatch) ->
     spoiled = whole.copy()
     spoiled[3] -= 1e-9
     monkeypatch.setattr(Turning, "angle", spoiled)
-    (check,) = rules["fenchel"].run(surface, surface.whole, {})
+    (check,) = identities()["fenchel"].run(surface, surface.whole, {})
     assert check.status == "fail"

@@ -21,7 +21,7 @@ RUN = ("sh", "python")
 SHOWN = ("text", "yaml", "toml", "json", "make", "snakemake", "dockerfile", "csv")
 
 # Tests of their own follow these pages on a copy of the project.
-FOLLOWED = ("docs/add-a-pass.md", "docs/add-a-format.md")
+FOLLOWED = ("docs/add-a-pass.md", "docs/add-a-check.md", "docs/add-a-format.md")
 
 # What a README installs, the continuous integration installs in an empty environment: see `.ci/run`.
 INSTALLS = "pip install"

@@ -8,8 +8,8 @@ import pytest
 from click import Context
 
 from curvcli.analysis.maps import SurfaceMap
-from curvcli.checks import rules
-from curvcli.checks.requirements import kinds
+from curvcli.checks.catalogue import identities
+from curvcli.checks.requirements.catalogue import requirements
 from curvcli.commands.main import cli
 from curvcli.commands.names import COMMANDS
 from curvcli.curves.collect import curves_of_surface
@@ -48,9 +48,9 @@ def test_every_quantity_says_what_it_is() -> None:
 
 
 def test_every_check_says_what_it_is() -> None:
-    for rule in rules.values():
+    for rule in identities().values():
         assert all((rule.statement, rule.gap, rule.applies, rule.bound, rule.failure)), rule.name
-    for kind in kinds.values():
+    for kind in requirements().values():
         assert kind.statement, kind.name
         assert kind.remedy, kind.name
 

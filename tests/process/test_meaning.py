@@ -12,7 +12,7 @@ import pytest
 
 import curvcli
 from curvcli.api import Analysis
-from curvcli.checks import rules
+from curvcli.checks.catalogue import identities
 from curvcli.errors import InputError, Notice
 from curvcli.mesh.seams import describe_exact_welding
 from curvcli.mesh.surface import Surface
@@ -85,7 +85,7 @@ def test_a_failing_check_fails_in_any_unit() -> None:
     surface = Surface(scaled(-1000).points, scaled(-1000).faces)
     columns = dict(analysis(scaled(-1000), "paper").columns)
     columns["area_gradient"] = columns["area_gradient"] + 1.0
-    (check,) = rules["area_gradient"].run(surface, surface.whole, columns)
+    (check,) = identities()["area_gradient"].run(surface, surface.whole, columns)
     assert (check.status, check.tolerance) == ("fail", None)
 
 

@@ -16,7 +16,11 @@ from .wording import faces, join_problems, located, vertices, with_explanation
 _DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "with fewer than three corners"}
 
 
-@requirement("no-degenerate", remedy="`--weld exact` drops faces with two corners at one place; remesh the others")
+@requirement(
+    "no-degenerate",
+    default=True,
+    remedy="`--weld exact` drops faces with two corners at one place; remesh the others",
+)
 def no_degenerate(surface: Surface, degenerate_face: Flags) -> str:
     """Every face has an area, and none had to be dropped."""
     dropped = [
@@ -29,7 +33,7 @@ def no_degenerate(surface: Surface, degenerate_face: Flags) -> str:
     return join_problems(faces(surface, np.flatnonzero(degenerate_face), "without area"), *dropped)
 
 
-@requirement("no-duplicate-faces", remedy="remove the later of each two: both add to areas and angles")
+@requirement("no-duplicate-faces", default=True, remedy="remove the later of each two: both add to areas and angles")
 def no_duplicate_faces(surface: Surface) -> str:
     """No two faces have the same corners."""
     found = faces(surface, duplicate_faces(surface), "with the corners of an earlier one")

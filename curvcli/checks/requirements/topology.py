@@ -28,6 +28,7 @@ def closed(surface: Surface) -> str:
 
 @requirement(
     "manifold",
+    default=True,
     remedy="part the surface where more than two faces meet, give each fan that only touches a vertex of its "
     "own; `--table edges=PATH` lists the edges",
 )
@@ -56,6 +57,7 @@ def oriented(surface: Surface) -> str:
 
 @requirement(
     "consistent-winding",
+    default=True,
     remedy="turn the faces in the file; the computation turns them for itself and says how many",
 )
 def consistent_winding(surface: Surface) -> str:

@@ -54,18 +54,18 @@ def _columns() -> list[str]:
 
 
 def _requirements() -> list[str]:
-    from ...checks.requirements import kinds
+    from ...checks.requirements.catalogue import requirements
 
-    return [f"{kind.name}=" if kind.number else kind.name for kind in kinds.values()]
+    return [f"{each.name}=" if each.number else each.name for each in requirements().values()]
 
 
 def _allowed() -> list[str]:
-    from ...checks import rules
-    from ...checks.requirements import DEFAULT
+    from ...checks.catalogue import identities
+    from ...checks.requirements.catalogue import defaults
     from ...curvatures.catalogue import load_passes
 
     load_passes()
-    return [*DEFAULT, *rules]
+    return [*defaults(), *identities()]
 
 
 def _samples() -> Iterable[str]:

@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from ...analysis.configuration import sentence
-from ...checks.base import rules
+from ...checks.catalogue import identities
 from ...report.build import model
 from ...report.phrases import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ...report.quantities import unmarked
@@ -83,7 +83,7 @@ def page(analysis: Result, appearance: Appearance, colored: tuple[str, ...], com
         checks=listed(report.checks),
         more_checks=len(report.checks) - len(listed(report.checks)),
         results=RESULTS,
-        rules=rules,
+        rules=identities(),
         counts={name: len(rows) for name, rows in pieces.items()},
         totals=_totals(),
         columns=chosen,

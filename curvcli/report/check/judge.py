@@ -7,8 +7,11 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from ...analysis.result import Result
-from ...checks import Check, requirements, rules
-from ...checks.requirements import Requirement
+from ...checks.base import Check
+from ...checks.catalogue import identities
+from ...checks.requirements.base import Required
+from ...checks.requirements.catalogue import defaults, parse, requirements
+from ...checks.requirements.topology import manifold
 from ...curvatures.catalogue import load_passes
 from ...curvatures.engine import evaluate
 from ...curvatures.registry import passes
@@ -28,7 +31,7 @@ class Plan:
     """Checks of every mesh."""
 
     identities: tuple[str, ...]
-    requirements: tuple[Requirement, ...]
+    requirements: tuple[Required, ...]
     assertions: tuple[Assertion, ...]
 
     @property
@@ -42,7 +45,7 @@ class Plan:
         return [
             Rule("input", INPUT, READABLE),
             *(Rule(name, IDENTITY, _statement(name)) for name in self.identities),
-            *(Rule(one.name, REQUIREMENT, one.kind.statement) for one in self.requirements),
+            *(Rule(one.name, REQUIREMENT, one.requirement.statement) for one in self.requirements),
             *(Rule(one.name, ASSERTION, f"{one.name}, nulls left out") for one in self.assertions),
         ]
 
@@ -60,22 +63,22 @@ def plan(
     Errors: UsageError for an unknown name, with the nearest.
     """
     load_passes()  # plug-ins may bring identities of their own
-    known = [*requirements.kinds, *rules]
+    known = [*requirements(), *identities()]
     allowed = {part.strip() for text in allow for part in text.split(",")}
     for name in sorted(allowed.difference(known)):
         way_out = suggestion(name, known, "`curvcli help checks` lists them")
         raise UsageError(f"cannot allow {name!r}: no such requirement or identity{way_out}")
-    wanted = requirements.parse([*requirements.DEFAULT, *require])
+    wanted = parse([*defaults(), *require])
     return Plan(
-        tuple(name for name in rules if name not in allowed),
-        tuple(one for one in wanted if one.kind.name not in allowed),
+        tuple(name for name in identities() if name not in allowed),
+        tuple(one for one in wanted if one.requirement.name not in allowed),
         tuple(dict.fromkeys(assertions.parse(text, scales) for text in asserted)),
     )
 
 
 def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
     """Run every check of the plan on an analysis that tested the plan's identities."""
-    flaw = requirements.kinds["manifold"].test(analysis.surface)
+    flaw = manifold(analysis.surface)
     given = _given(analysis, chosen)
     outcomes = [
         *(_of_identity(check, flaw) for check in analysis.checks),
@@ -119,32 +122,32 @@ def _of_identity(check: Check, flaw: str) -> Outcome:
 
 def gap(check: Check) -> str:
     """Residual of a failing identity: `ΣK + Σκ_g − 2πχ = 3.1416 (allowed 2e-11)`."""
-    told = rules[check.name].gap if check.name in rules else ""
-    name = told or "residual"
-    found, sides = check.residual, (check.value, check.expected)
-    if isinstance(sides[0], float) and isinstance(sides[1], float) and abs(sides[0] - sides[1]) == found:
-        found = sides[0] - sides[1]
-    elif told:
+    rule = identities().get(check.name)
+    name = rule.gap if rule and rule.gap else "residual"
+    residual, sides = check.residual, (check.value, check.expected)
+    if isinstance(sides[0], float) and isinstance(sides[1], float) and abs(sides[0] - sides[1]) == residual:
+        residual = sides[0] - sides[1]
+    elif name != "residual":
         name = f"|{name}|"
-    size = "undefined" if found is None else f"{found:.5g}"
+    size = "undefined" if residual is None else f"{residual:.5g}"
     bound = "undefined" if check.tolerance is None else f"{check.tolerance:.1g}"
     return f"{name} = {size} (allowed {bound})"
 
 
 def _statement(name: str) -> str:
-    return rules[name].statement.split("\n\n")[0].replace("\n", " ").rstrip(".")
+    return identities()[name].statement.split("\n\n")[0].replace("\n", " ").rstrip(".")
 
 
 def _given(analysis: Result, chosen: Plan) -> dict[str, Any]:
     """Quantities that the requirements need, and the convention for H."""
-    needs = {need for one in chosen.requirements for need in one.kind.needs} - {"mean"}
+    needs = {need for one in chosen.requirements for need in one.requirement.needs} - {"mean"}
     area, known = analysis.request.area, analysis.columns
     return {**evaluate(passes, analysis.surface, needs, area=area, known=known), "mean": analysis.request.mean}
 
 
-def _of_requirement(one: Requirement, analysis: Result, given: Mapping[str, Any]) -> Outcome:
+def _of_requirement(one: Required, analysis: Result, given: Mapping[str, Any]) -> Outcome:
     problem = one.problem(analysis.surface, given)
-    return Outcome(one.name, REQUIREMENT, "whole", FAIL if problem else PASS, problem or one.kind.statement)
+    return Outcome(one.name, REQUIREMENT, "whole", FAIL if problem else PASS, problem or one.requirement.statement)
 
 
 def _of_assertion(one: Assertion, analysis: Result) -> Outcome:

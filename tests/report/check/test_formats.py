@@ -19,7 +19,7 @@ import pytest
 from curvcli.analysis.request import Request
 from curvcli.api import Analysis
 from curvcli.checks import Check
-from curvcli.checks.base import rules
+from curvcli.checks.catalogue import identities
 from curvcli.commands.schemas import SCHEMAS
 from curvcli.mesh.surface import Surface
 from curvcli.report.check.github import write_github
@@ -167,7 +167,7 @@ def test_a_failing_identity_says_by_how_much() -> None:
     assert gap(check) == "|ΣH_p − Ση|e|| = 1 (allowed 1e-15)"
     check = Check("of_a_plug_in", "whole", "fail", None, None, None, None, "")
     assert gap(check) == "residual = undefined (allowed undefined)"
-    assert all(rule.gap for rule in rules.values())
+    assert all(rule.gap for rule in identities().values())
 
 
 def test_a_disturbed_identity_fails_the_mesh() -> None:
