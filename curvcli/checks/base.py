@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..mesh.groups import Groups
 from ..mesh.triangles import EPSILON, NO_AREA
-from ..support.arrays import or_none
+from ..support.arrays import Value, or_none
 
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
@@ -30,17 +30,17 @@ _PARTS = ("value", "expected value", "residual", "tolerance")
 
 @dataclass(frozen=True)
 class Check:
-    """One identity on one piece of the surface.
+    """One identity on one scope: `pass`, `fail` or `not_applicable` with the reason in `detail`.
 
-    status: pass, fail or not_applicable (detail says why). value, expected: both sides, numbers or vectors.
-    residual: |value − expected|. tolerance: the bound of the rounding error of the residual.
+    value, expected: both sides, numbers or vectors. residual: |value − expected|. tolerance: the largest residual that
+    rounding can explain.
     """
 
     name: str
     scope: str
     status: str
-    value: float | list[float] | None
-    expected: float | list[float] | None
+    value: Value
+    expected: Value
     residual: float | None
     tolerance: float | None
     detail: str

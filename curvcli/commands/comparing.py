@@ -43,15 +43,13 @@ def compare(
     **conventions: Any,
 ) -> int:
     """Return the exit code: 1 if anything differs. given: conventions that override those of a stored side."""
-    import msgspec
-
     from ..analysis.configuration import configured
     from ..output.atomic import Outputs
     from ..output.formats import format_of
     from ..output.tables.write import parse_precision, write_table
     from ..report import accuracy as errors
     from ..report.compare import model as differences
-    from ..report.model import encode
+    from ..report.model import as_dict, encode
     from ..report.terminal import accuracy as error_summary
     from ..report.terminal import compare as difference_summary
     from .configured import configuration
@@ -78,10 +76,10 @@ def compare(
         for path, one in zip(outputs, formats, strict=True):
             with files.open(path) as stream:
                 if one.kind == "report":
-                    stream.write(encode(msgspec.to_builtins(found)))
+                    stream.write(encode(as_dict(found)))
                 else:
                     write_table(stream, table(), one.suffix, precision=precision)
-        print_report(partial(msgspec.to_builtins, found), summary, as_json, get, quiet or to_stdout)
+        print_report(partial(as_dict, found), summary, as_json, get, quiet or to_stdout)
     return OK if found.equal else FAILED_CHECK
 
 
@@ -107,7 +105,7 @@ def _compare(
             columns, lacking, more = compare_cells(a.cells, b.cells, tolerance, wanted, common=common)
             found, compared = [*found, *lacking], compared + more
         elif wanted("vertices.count"):
-            found.append(Difference("vertices.count", "changed", *counts))
+            found.append(Difference("vertices.count", "changed", counts[0], counts[1], None, None))
             compared += 1
             notes.append("tables of different lengths: the columns are not compared cell by cell")
     if not compared and not found:

@@ -95,11 +95,10 @@ def measure(
     **limits: Any,
 ) -> int:
     """Check the options, read the file, measure its curves, write and print them; return the exit code."""
-    import msgspec
-
     from ..analysis.configuration import configured
     from ..output.atomic import Outputs
     from ..output.tables.write import parse_precision
+    from ..report.model import as_dict
     from .configured import configuration
 
     wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
@@ -116,7 +115,7 @@ def measure(
             with files.open(one.path) as stream:
                 _write(stream, measures, report, one.kind, one.suffix, precision)
         summary = partial(_show, report, verbose)
-        print_report(partial(msgspec.to_builtins, report), summary, as_json, get, quiet or to_stdout)
+        print_report(partial(as_dict, report), summary, as_json, get, quiet or to_stdout)
     return FAILED_CHECK if strict and any(check.status == "fail" for check in report.checks) else OK
 
 
@@ -149,11 +148,9 @@ def _show(report: CurveReport, verbose: int) -> None:
 
 def _write(stream: Any, measures: CurveMeasures, report: CurveReport, kind: str, suffix: str, precision: str) -> None:
     if kind == "report":
-        import msgspec
+        from ..report.model import as_dict, encode
 
-        from ..report.model import encode
-
-        stream.write(encode(msgspec.to_builtins(report)))
+        stream.write(encode(as_dict(report)))
     else:
         from ..output.tables.write import write_table
 

@@ -22,7 +22,7 @@ from ..report.check.model import CheckReport
 from ..report.compare.model import Comparison
 from ..report.curves import CurveReport
 from ..report.maps import MapReport
-from ..report.model import Report, encode
+from ..report.model import Report, encode, require_all_keys
 from ..report.model import schema as report_schema
 from ..report.quantities import Facts
 from ..support.words import escape_json
@@ -43,6 +43,7 @@ class Described:
     def stored(self) -> bytes:
         """Content of the schema file."""
         alternatives, definitions = msgspec.json.schema_components(self.types)
+        require_all_keys(definitions)
         for one in definitions.values():
             if "description" in one:
                 one["description"] = cleandoc(one["description"])  # as Python keeps docstrings from 3.13 on

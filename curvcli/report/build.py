@@ -21,7 +21,6 @@ from ..support.arrays import or_none
 from ..support.cache import cached
 from .model import (
     CONVENTIONS,
-    CheckRow,
     Cmc,
     Minimal,
     Normals,
@@ -29,8 +28,8 @@ from .model import (
     Report,
     Steiner,
     Topology,
+    as_dict,
     input_of,
-    remarks,
     vector,
 )
 from .statistics import ColumnStatistics, statistics
@@ -41,8 +40,7 @@ if TYPE_CHECKING:
 
 def build(analysis: Result) -> dict[str, Any]:
     """Build the report as plain Python values."""
-    found: dict[str, Any] = msgspec.to_builtins(model(analysis))
-    return found
+    return as_dict(model(analysis))
 
 
 def model(analysis: Result) -> Report:
@@ -65,8 +63,8 @@ def model(analysis: Result) -> Report:
         loops=loops(analysis),
         regions=_regions(analysis),
         columns=_columns(analysis),
-        checks=[CheckRow(**vars(check)) for check in analysis.checks],
-        warnings=remarks(analysis.notices),
+        checks=analysis.checks,
+        warnings=analysis.notices,
         timings=analysis.timings,
         configuration=configured(analysis.configuration),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import msgspec
@@ -9,11 +10,13 @@ import numpy as np
 
 from .._version import __version__
 from ..analysis.configuration import Configured
+from ..checks.base import Check
 from ..curves.identities import Identity
 from ..curves.measure import CurveMeasures
+from ..errors import Notice
 from ..mesh.file import Labels
 from ..support.arrays import or_none
-from .model import CheckRow, Input, Remark, input_of, remarks, vector
+from .model import Input, input_of, vector
 
 Vector = list[float | None] | None
 
@@ -82,8 +85,8 @@ class CurveReport(msgspec.Struct):
     conventions: dict[str, str | int | None]
     curves: list[CurveRow]
     links: list[LinkRow]
-    checks: list[CheckRow]
-    warnings: list[Remark]
+    checks: list[Check]
+    warnings: list[Notice]
     configuration: Configured = msgspec.UNSET
 
 
@@ -98,7 +101,7 @@ def model(measures: CurveMeasures, *, weld: str = "none", unit: str | None = Non
         curves=rows(measures),
         links=[LinkRow(*row) for row in zip(*map(_values, measures.links_table().values()), strict=True)],
         checks=[row for identity in measures.identities for row in _checks(identity)],
-        warnings=remarks(measures.notices),
+        warnings=measures.notices,
     )
 
 
@@ -121,7 +124,7 @@ def _values(column: Any) -> list[Any]:
     return [or_none(value) for value in column.tolist()]
 
 
-def _checks(identity: Identity) -> list[CheckRow]:
+def _checks(identity: Identity) -> list[Check]:
     """One row per curve, or of very many curves those that fail and one for the rest."""
     passed = identity.residual <= identity.tolerance  # NaN fails
     reason = np.full(len(passed), -1)
@@ -136,27 +139,24 @@ def _checks(identity: Identity) -> list[CheckRow]:
     return listed
 
 
-def _check(identity: Identity, curve: int, passed: bool, reason: int) -> CheckRow:
+def _check(identity: Identity, curve: int, passed: bool, reason: int) -> Check:
     scope = f"curve {curve}"
     if reason >= 0:
-        return CheckRow(identity.name, scope, "not_applicable", None, None, None, None, identity.excluded[reason][1])
+        return Check(identity.name, scope, "not_applicable", None, None, None, None, identity.excluded[reason][1])
     value, expected, residual, tolerance = (
         or_none(float(side[curve]))
         for side in (identity.value, identity.expected, identity.residual, identity.tolerance)
     )
     status = "pass" if passed else "fail"
-    return CheckRow(identity.name, scope, status, value, expected, residual, tolerance, identity.detail)
+    return Check(identity.name, scope, status, value, expected, residual, tolerance, identity.detail)
 
 
-def _summary(identity: Identity, reason: np.ndarray[Any, Any]) -> CheckRow:
+def _summary(identity: Identity, reason: np.ndarray[Any, Any]) -> Check:
     tested = np.flatnonzero(reason < 0)
     if not len(tested):
         why = identity.excluded[int(reason[0])][1]
-        return CheckRow(identity.name, "curves", "not_applicable", None, None, None, None, why)
+        return Check(identity.name, "curves", "not_applicable", None, None, None, None, why)
     closest = int(tested[(identity.residual / identity.tolerance)[tested].argmax()])
     row = _check(identity, closest, True, -1)
-    row.detail = (
-        f"{len(tested):,} of {len(reason):,} curves pass, the others are not applicable; {row.scope} is closest"
-    )
-    row.scope = "curves"
-    return row
+    detail = f"{len(tested):,} of {len(reason):,} curves pass, the others are not applicable; {row.scope} is closest"
+    return replace(row, scope="curves", detail=detail)

@@ -9,8 +9,10 @@ import numpy as np
 
 from .._version import __version__
 from ..analysis.configuration import Configured, configured
+from ..checks.base import Check
+from ..errors import Notice
 from ..support.arrays import or_none
-from .model import CheckRow, Input, Remark, input_of, remarks
+from .model import Input, as_dict, input_of
 
 if TYPE_CHECKING:
     from ..analysis.maps import SurfaceMap
@@ -58,8 +60,8 @@ class MapReport(msgspec.Struct):
     area_distortion: Range
     orientation: Turned
     harmonic: Harmonic
-    checks: list[CheckRow]
-    warnings: list[Remark]
+    checks: list[Check]
+    warnings: list[Notice]
     configuration: Configured = msgspec.UNSET
 
 
@@ -83,16 +85,15 @@ def model(f: SurfaceMap) -> MapReport:
         area_distortion=_range(f.area_distortion),
         orientation=_turned(f.orientation),
         harmonic=Harmonic(or_none(residual), vertex, or_none(rounding)),
-        checks=[CheckRow(**vars(check)) for check in f.checks],
-        warnings=remarks(notices),
+        checks=f.checks,
+        warnings=notices,
         configuration=configured(f.configuration),
     )
 
 
 def build(f: SurfaceMap) -> dict[str, Any]:
     """Build the report of a map as plain Python values."""
-    found: dict[str, Any] = msgspec.to_builtins(model(f))
-    return found
+    return as_dict(model(f))
 
 
 def _turned(sign: np.typing.NDArray[np.float64]) -> Turned:

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import msgspec
 
 from ..analysis.configuration import Configured
+from ..checks.base import Check
 from ..curvatures.registry import passes
 from ..errors import Notice
+from ..support.arrays import Value
 from ..support.words import escape_json, escape_text
 from .statistics import ColumnStatistics
 
 if TYPE_CHECKING:
     from ..mesh.file import MeshFile
 
-Value = float | list[float | None] | None
-
-# For a polynomial of degree 3, lowest power first.
+# Of a polynomial of degree 3, lowest power first.
 POWERS = 4
 Coefficients = Annotated[list[float | None], msgspec.Meta(min_length=POWERS, max_length=POWERS)]
 
@@ -108,34 +108,6 @@ class Piece(msgspec.Struct, omit_defaults=True):
     name: str | msgspec.UnsetType = msgspec.UNSET
 
 
-class CheckRow(msgspec.Struct):
-    """One identity on one scope: `pass`, `fail` or `not_applicable` with the reason in `detail`."""
-
-    name: str
-    scope: str
-    status: str
-    value: Value
-    expected: Value
-    residual: float | None
-    tolerance: float | None
-    detail: str
-
-
-class Remark(msgspec.Struct):
-    """Notice about the input or the results, with its count, first places and hint."""
-
-    code: str
-    count: int
-    message: str
-    hint: str | None
-    examples: list[int | str]
-
-
-def remarks(notices: Iterable[Notice]) -> list[Remark]:
-    """Notices in the form of the report."""
-    return [Remark(n.code, n.count, n.message, n.hint, list(n.examples)) for n in notices]
-
-
 def input_of(file: MeshFile | None, vertices: int, faces: int) -> Input:
     """Input of the report; vertices: rows of the table, faces: polygons if there is no file."""
     if file is None:
@@ -160,10 +132,18 @@ class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
     loops: list[dict[str, str | int | bool | Value]]
     regions: list[Piece]
     columns: dict[str, ColumnStatistics]
-    checks: list[CheckRow]
-    warnings: list[Remark]
+    checks: list[Check]
+    warnings: list[Notice]
     timings: dict[str, float]
     configuration: Configured = msgspec.UNSET
+
+
+def as_dict(report: msgspec.Struct) -> dict[str, Any]:
+    """A report as dicts and lists of plain values."""
+    values: dict[str, Any] = msgspec.to_builtins(report)
+    for warning in values.get("warnings", ()):
+        warning["examples"] = list(warning["examples"])
+    return values
 
 
 def encode(report: Report | list[Report] | dict[str, Any]) -> bytes:
@@ -183,7 +163,7 @@ def _whole(value: Any) -> Any:
     match value:
         case str():
             return value if value.isprintable() else _without_halves(value)
-        case list():
+        case list() | tuple():
             return [_whole(one) for one in value]
         case dict():
             return {_whole(key): _whole(one) for key, one in value.items()}
@@ -194,11 +174,20 @@ def _without_halves(text: str) -> str:
     return "".join(escape_text(c) if "\ud800" <= c < "\ue000" else c for c in text)
 
 
+def require_all_keys(definitions: dict[str, Any]) -> None:
+    """Require every key of a notice in a schema: defaults are for Python, and JSON has all of them."""
+    if notice := definitions.get("Notice"):
+        notice["required"] = list(notice["properties"])
+        for value in notice["properties"].values():
+            value.pop("default", None)
+
+
 def schema() -> bytes:
     """JSON Schema of the report."""
     from .quantities import public, unmarked
 
     found = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
+    require_all_keys(found["$defs"])
     properties = found["$defs"]["Report"]["properties"]
     quantities = [quantity for quantity in public() if quantity.on == "vertex" and quantity.kind != "label"]
     properties["columns"]["properties"] = {

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ..support.words import counted, escape_text
 
 if TYPE_CHECKING:
-    from .model import CheckRow, Report, Topology
+    from ..checks.base import Check
+    from .model import Report, Topology
 
 _RANK = {"fail": 0, "pass": 1, "not_applicable": 2}
 RESULTS = {"fail": "fails", "pass": "holds", "not_applicable": "does not apply"}
@@ -67,12 +68,12 @@ def conventions(report: Report) -> dict[str, str]:
     return found | {key: str(value) for key, value in chosen.items() if key not in told and value is not None}
 
 
-def failing_first(rows: Iterable[CheckRow]) -> list[CheckRow]:
+def failing_first(rows: Iterable[Check]) -> list[Check]:
     """Checks by severity, failing first."""
     return sorted(rows, key=lambda row: _RANK[row.status])
 
 
-def listed(rows: Sequence[CheckRow]) -> list[CheckRow]:
+def listed(rows: Sequence[Check]) -> list[Check]:
     """Checks, failing first; those that pass on pieces are cut at `SHOWN_ROWS` rows in all."""
     kept = [row for row in rows if row.scope == "whole" or row.status == "fail"]
     rest = [row for row in rows if row.scope != "whole" and row.status != "fail"]

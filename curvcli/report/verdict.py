@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from .model import CheckRow, Report
+from ..checks.base import Check
+from .model import Report
 
 
 def conclusion(report: Report) -> str:
@@ -27,7 +28,7 @@ def holds(report: Report) -> bool:
     return all(row.status != "fail" for row in report.checks)
 
 
-def _distrust(failed: list[CheckRow]) -> str:
+def _distrust(failed: list[Check]) -> str:
     """Sentence on failures: they exceed the rounding bound, so the numbers are wrong."""
     names = sorted({row.name for row in failed})
     scopes = sorted({row.scope for row in failed} - {"whole"})

@@ -13,6 +13,9 @@ Flags = NDArray[np.bool_]
 Codes = NDArray[np.int8]
 Counts = NDArray[np.int32]
 
+# A number or a vector of a report; None is undefined.
+Value = float | list[float | None] | None
+
 
 def or_none(value: float) -> float | None:
     """Replace NaN and infinity by None for reports."""

@@ -14,7 +14,9 @@ from curvcli.curves.measure import CurveMeasures
 from curvcli.report import accuracy, advice, curves
 from curvcli.report.check.model import CheckedMesh, CheckReport, Outcome, Rule
 from curvcli.report.compare import model as differences
+from curvcli.report.compare.cells import MovedColumn
 from curvcli.report.compare.exact import ErrorNorms
+from curvcli.report.compare.values import Difference
 from curvcli.report.terminal import accuracy as accuracy_text
 from curvcli.report.terminal import check as check_text
 from curvcli.report.terminal import compare as compare_text
@@ -41,11 +43,9 @@ def of_checks(count: int = 1) -> None:
 
 
 def of_differences() -> None:
-    change = differences.Change(
-        "components.3.totals.willmore_hks", "moved", 0.1 + 0.2, -1.2345678901234567e-17, 0.3, 1e-9
-    )
-    vector = differences.Change("totals.A_vec", "moved", [0.1 + 0.2, 1 / 3, 2 / 3], [0.5, 1 / 7, -2 / 7], 0.3, 1e-9)
-    column = differences.ChangedColumn("kappa_1", 12345, 678, 90, 1 / 3, 0.1 + 0.2, 0.03, 1e-9)
+    change = Difference("components.3.totals.willmore_hks", "moved", 0.1 + 0.2, -1.2345678901234567e-17, 0.3, 1e-9)
+    vector = Difference("totals.A_vec", "moved", [0.1 + 0.2, 1 / 3, 2 / 3], [0.5, 1 / 7, -2 / 7], 0.3, 1e-9)
+    column = MovedColumn("kappa_1", 12345, 678, 90, 1 / 3, 0.1 + 0.2, 0.03, 1e-9)
     sides = (differences.Side("a.obj", "mesh"), differences.Side("b.json", "report"))
     compare_text.show(differences.Comparison(1, "0", *sides, 1e-9, 0, False, 100, [change, vector], [column], []))
 

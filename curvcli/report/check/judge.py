@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 from ...analysis.result import Result
 from ...checks.base import Check
@@ -18,7 +18,7 @@ from ...curvatures.registry import passes
 from ...errors import FAILED_CHECK, OK, UsageError
 from ...mesh.scale import Scale
 from ...support.words import escape_text, suggestion
-from ..model import CONVENTIONS, Value, remarks
+from ..model import CONVENTIONS
 from . import assertions
 from .assertions import Assertion
 from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, Outcome, Rule
@@ -94,7 +94,7 @@ def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
         FAILED_CHECK if failed else OK,
         {key: getattr(conventions, key) for key in CONVENTIONS},
         outcomes,
-        remarks(analysis.notices),
+        analysis.notices,
     )
 
 
@@ -113,8 +113,8 @@ def _of_identity(check: Check, flaw: str) -> Outcome:
         escape_text(check.scope),
         check.status,
         escape_text(message),
-        cast(Value, check.value),
-        cast(Value, check.expected),
+        check.value,
+        check.expected,
         check.residual,
         check.tolerance,
     )

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from ...errors import Notice
 from ...support.words import counted, escape_text
-from ..model import Remark
 from .model import FAIL, PASS, CheckedMesh, Outcome, sentence
 
 # Limits without -v: failures of one check of one mesh, failures in all, and warnings in all.
@@ -75,7 +75,7 @@ def scopes(outcomes: Sequence[Outcome], more: str = "") -> str:
 
 def warnings(
     meshes: Sequence[CheckedMesh], most: int | None = WARNINGS
-) -> tuple[list[tuple[CheckedMesh, Remark]], int]:
+) -> tuple[list[tuple[CheckedMesh, Notice]], int]:
     """Warnings of a lone mesh, or of several meshes that fail (None: of all), and the number left out."""
     chosen = [mesh for mesh in meshes if most is None or len(meshes) == 1 or mesh.status == FAIL]
     found = [(mesh, remark) for mesh in chosen for remark in mesh.warnings]
@@ -83,7 +83,7 @@ def warnings(
     return kept, len(found) - len(kept)
 
 
-def warning(mesh: CheckedMesh, remark: Remark) -> str:
+def warning(mesh: CheckedMesh, remark: Notice) -> str:
     """Warning in one line, with the first places and the hint."""
     first = (
         f" (first: {', '.join(escape_text(str(place)) for place in remark.examples[:3])})" if remark.examples else ""

@@ -6,8 +6,10 @@ import msgspec
 
 from ..._version import __version__
 from ...analysis.configuration import Configuration, Configured, configured
+from ...errors import Notice
+from ...support.arrays import Value
 from ...support.words import escape_text
-from ..model import Remark, Value, encode
+from ..model import encode
 
 # Values of `kind` and `status`.
 IDENTITY, REQUIREMENT, ASSERTION, INPUT = "identity", "requirement", "assertion", "input"
@@ -48,7 +50,7 @@ class CheckedMesh(msgspec.Struct):
     exit_code: int
     conventions: dict[str, str | None] | None
     outcomes: list[Outcome]
-    warnings: list[Remark]
+    warnings: list[Notice]
 
     def count(self, status: str) -> int:
         """Number of outcomes of a status."""

@@ -21,8 +21,9 @@ Cells = NDArray[Any]
 
 @dataclass(frozen=True)
 class MovedColumn:
-    """Column with cells that differ: their number, and the cell that moved most; null against a number is
-    listed with `moved` null and comes first.
+    """A column of the vertex tables with cells that differ, and the cell that moved most.
+
+    A null against a number has `moved` null and comes before any other cell.
     """
 
     name: str
@@ -59,7 +60,7 @@ def compare_cells(
         if name not in a or name not in b:
             if not common:
                 status = "absent_in_b" if name in a else "absent_in_a"
-                lacking.append(Difference(f"vertices.{name}", status, None, None))
+                lacking.append(Difference(f"vertices.{name}", status, None, None, None, None))
             continue
         compared += 1
         one, other = a[name], b[name]

@@ -22,30 +22,6 @@ class Side(msgspec.Struct):
     sha256: str | None = None
 
 
-class Change(msgspec.Struct):
-    """One value that differs, by its dotted key: moved, changed, absent_in_a or absent_in_b."""
-
-    key: str
-    status: str
-    a: Any
-    b: Any
-    moved: float | None
-    allowed: float | None
-
-
-class ChangedColumn(msgspec.Struct):
-    """Column of the vertex tables with cells that differ, and the cell that moved most."""
-
-    name: str
-    rows: int
-    differing: int
-    vertex: int
-    a: float | str | None
-    b: float | str | None
-    moved: float | None
-    allowed: float | None
-
-
 class Comparison(msgspec.Struct):
     """The report of `curvcli compare`; equal if no value moved beyond tolerance."""
 
@@ -57,8 +33,8 @@ class Comparison(msgspec.Struct):
     atol: float
     equal: bool
     compared: int
-    differences: list[Change]
-    columns: list[ChangedColumn]
+    differences: list[Difference]
+    columns: list[MovedColumn]
     notes: list[str]
     configuration: Configured = msgspec.UNSET
 
@@ -82,8 +58,8 @@ def model(
         atol=tolerance.atol,
         equal=not differences and not columns,
         compared=compared,
-        differences=[Change(**vars(one)) for one in differences],
-        columns=[ChangedColumn(**vars(one)) for one in columns],
+        differences=differences,
+        columns=columns,
         notes=notes,
     )
 

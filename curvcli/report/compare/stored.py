@@ -8,7 +8,7 @@ import msgspec
 
 from ...errors import InputError
 from ...loading.content import open_regular, read_limited
-from ..model import Report
+from ..model import Report, as_dict
 
 SCHEMA_VERSION = 1
 _HINT = "`curvcli analyze MESH -o REPORT.json` writes one"
@@ -46,7 +46,6 @@ def decode(data: bytes) -> dict[str, Any]:
         hint = "a newer curvcli wrote it; update curvcli, or write the report again" if newer else _HINT
         raise InputError(f"schema_version {version!r} found, {SCHEMA_VERSION} expected", hint=hint)
     try:
-        plain: dict[str, Any] = msgspec.to_builtins(msgspec.convert(found, Report))
+        return as_dict(msgspec.convert(found, Report))
     except msgspec.ValidationError as error:
         raise InputError(f"a damaged report: {error}", hint=_HINT) from None
-    return plain

@@ -48,14 +48,14 @@ class Tolerance:
 
 @dataclass(frozen=True)
 class Difference:
-    """One value that differs: `moved` beyond tolerance, `changed`, or absent on one side."""
+    """One value that differs, by its dotted key: moved, changed, absent_in_a or absent_in_b."""
 
     key: str
-    status: str  # moved, changed, absent_in_a, absent_in_b
+    status: str
     a: Any
     b: Any
-    moved: float | None = None
-    allowed: float | None = None
+    moved: float | None
+    allowed: float | None
 
 
 class Leaf(NamedTuple):
@@ -115,7 +115,7 @@ def compare_reports(
             name = dotted(key if any(there[:2] == key[:2] for there in lacking) else key[:2])
             if name not in absent:
                 absent.add(name)
-                found.append(Difference(name, "absent_in_b" if key in one else "absent_in_a", None, None))
+                found.append(Difference(name, "absent_in_b" if key in one else "absent_in_a", None, None, None, None))
     return found, compared
 
 
@@ -124,7 +124,7 @@ def _compared(key: Key, a: Leaf, b: Leaf, tolerance: Tolerance) -> Difference | 
         return None
     one, other = _numbers(a.value), _numbers(b.value)
     if a.typical is None or b.typical is None or one is None or other is None or len(one) != len(other):
-        return Difference(dotted(key), "changed", a.value, b.value)
+        return Difference(dotted(key), "changed", a.value, b.value, None, None)
     size = max(math.hypot(*one), math.hypot(*other), a.typical, b.typical) if tolerance.rtol > 0 else 0.0
     allowed = tolerance.allowed(size, max(a.noise, b.noise))
     moved = math.dist(one, other)

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from rich.table import Table
 
+from ...checks.base import Check
 from ...support.words import counted
 from ..curves import CurveReport, CurveRow
-from ..model import CheckRow
 from .console import MARKS, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table, roomy_table, with_sentences
 
@@ -71,7 +71,7 @@ def _curves(rows: list[CurveRow]) -> Iterator[Table]:
         yield table
 
 
-def _checks(checks: list[CheckRow], verbose: int) -> Iterator[Table]:
+def _checks(checks: list[Check], verbose: int) -> Iterator[Table]:
     """Each identity once, by its closest call, and every failure."""
     listed = checks if verbose else [row for name in dict.fromkeys(c.name for c in checks) for row in _of(checks, name)]
     rows = [
@@ -85,7 +85,7 @@ def _checks(checks: list[CheckRow], verbose: int) -> Iterator[Table]:
     return with_sentences(("check", "scope", "status"), ("residual", "allowed"), "detail", rows)
 
 
-def _of(checks: list[CheckRow], name: str) -> list[CheckRow]:
+def _of(checks: list[Check], name: str) -> list[Check]:
     """Rows of one identity to print: all that fail, else the closest call, else the first reason."""
     mine = [row for row in checks if row.name == name]
     failed = [row for row in mine if row.status == "fail"]
@@ -93,7 +93,7 @@ def _of(checks: list[CheckRow], name: str) -> list[CheckRow]:
     return failed or sorted(tested, key=_strain)[-1:] or mine[:1]
 
 
-def _strain(row: CheckRow) -> float:
+def _strain(row: Check) -> float:
     return row.residual / row.tolerance if row.residual and row.tolerance else 0.0
 
 

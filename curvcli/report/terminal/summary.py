@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
+from ...checks.base import Check
 from ...mesh.scale import describe_scales
 from ..build import model
-from ..model import CheckRow, Report
+from ..model import Report
 from ..phrases import failing_first, shape
 from ..verdict import conclusion, holds
 from .console import MARKS, escape, report_console, show_configuration
@@ -57,7 +58,7 @@ def _shape(report: Report) -> str:
     return f"{counts}  {shape(topology)}"
 
 
-def _checks(rows: list[CheckRow], verbose: int) -> Iterator[Table]:
+def _checks(rows: list[Check], verbose: int) -> Iterator[Table]:
     """Failures first, with the detail beside the numbers, or below the name where the terminal is narrow."""
     listed = failing_first(row for row in rows if row.scope == "whole" or row.status == "fail" or verbose)
     hidden = len(rows) - len(listed)

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from curvcli.errors import Notice
 from curvcli.report.check.github import write_github
 from curvcli.report.check.junit import write_junit
 from curvcli.report.check.lines import FIRST, MOST
 from curvcli.report.check.model import CheckedMesh, CheckReport, Outcome, Rule, report_of
 from curvcli.report.check.sarif import write_sarif
-from curvcli.report.model import Remark
 from curvcli.report.terminal.check import write_text
 from tests.helpers.cli.program import CUBE, DISK, MOBIUS, curvcli
 from tests.helpers.gates import judged
@@ -38,7 +38,7 @@ def mesh(path: str, failing: int, passing: int = 0) -> CheckedMesh:
         for k in range(failing + passing)
     ]
     closed = Outcome("closed", "requirement", "whole", "fail" if failing else "pass", "2 edges with only one face")
-    remark = Remark("duplicate_vertices", 3, "vertices twice", "--weld exact merges them", [4, 7])
+    remark = Notice("duplicate_vertices", 3, "vertices twice", "--weld exact merges them", (4, 7))
     status = "fail" if failing else "pass"
     return CheckedMesh(path, "0" * 64, status, int(failing > 0), {}, [*outcomes, closed], [remark])
 
