@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, Protocol
-
-from numpy.typing import NDArray
+from typing import Protocol
 
 from ..curvatures.quantity import Element, Quantity
 from ..curvatures.registry import passes
-
-Array = NDArray[Any]
+from ..support.arrays import Array
 
 
 class Holder(Protocol):

@@ -5,18 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh.orientation import same_direction
-from ..mesh.topology import Index, Mask, label_graph
+from ..mesh.topology import label_graph
 from ..mesh.triangles import EPSILON, cross, dot, triangles
+from ..support.arrays import Floats, Index, Mask
 from ..support.blocks import slices
 
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
     from .stretch import Stretch
 
-Floats = NDArray[np.float64]
 
 # Points of a plane are this many units of rounding of their coordinates away from it.
 _PLANE = 64 * EPSILON

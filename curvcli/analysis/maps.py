@@ -15,6 +15,7 @@ from ..errors import InputError, Notice
 from ..loading.load import as_surface
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
+from ..support.arrays import Floats
 from ..support.words import counted
 from .map_orientation import orientation
 from .notices import out_of_range
@@ -23,8 +24,6 @@ from .totals import lost
 
 if TYPE_CHECKING:
     from .configuration import Configuration
-
-Floats = NDArray[np.float64]
 
 
 class SurfaceMap:

@@ -17,8 +17,6 @@ from ..mesh.scale import Scale
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
 
-Floats = NDArray[np.float64]
-
 _SCALED = ("willmore_ring", "willmore_corrected", "willmore_fit")
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
 STARS = (

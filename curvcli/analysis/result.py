@@ -24,7 +24,7 @@ from ..loading.load import as_surface
 from ..mesh.groups import Groups
 from ..mesh.scale import DEFAULTS, parse_scales
 from ..mesh.surface import Surface
-from ..support.arrays import or_none
+from ..support.arrays import Array, or_none
 from . import notices as findings
 from .columns import Columns, named
 from .request import Request
@@ -34,7 +34,6 @@ from .totals import lost, lost_totals, summed, totals
 if TYPE_CHECKING:
     from .configuration import Configuration
 
-Array = NDArray[Any]
 
 # Up to this many components or regions, their checks are listed one by one; beyond, only those that fail.
 LISTED_GROUPS = 100

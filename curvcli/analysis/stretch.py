@@ -6,16 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..mesh.topology import Index, Mask
 from ..mesh.triangles import EPSILON, dot, triangles
+from ..support.arrays import Floats, Index, Mask
 from ..support.blocks import slices
 
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

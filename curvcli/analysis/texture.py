@@ -12,10 +12,9 @@ from ..errors import InputError, Notice
 from ..mesh.file import MeshFile
 from ..mesh.orientation import same_direction
 from ..mesh.surface import Surface
-from ..mesh.topology import Index, next_corner
+from ..mesh.topology import next_corner
+from ..support.arrays import Floats, Index
 from .maps import SurfaceMap
-
-Floats = NDArray[np.float64]
 
 # Names of the texture coordinates of vertices in various programs.
 _PROPERTIES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))

@@ -6,7 +6,6 @@ from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..curvatures.quantity import AT_SCALE, Quantity
 from ..curvatures.registry import passes
@@ -14,8 +13,7 @@ from ..mesh.counts import count_groups
 from ..mesh.enclosed import volumes
 from ..mesh.groups import Groups, Segments
 from ..mesh.surface import Surface
-
-Floats = NDArray[np.float64]
+from ..support.arrays import Floats
 
 
 def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: str = "sum") -> dict[str, Floats]:

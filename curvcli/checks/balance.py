@@ -9,10 +9,10 @@ import numpy as np
 from ..mesh.conormals import conormals
 from ..mesh.groups import Groups, Segments
 from ..mesh.surface import Surface
-from ..mesh.topology import Index, ends_of
+from ..mesh.topology import ends_of
 from ..mesh.triangles import EPSILON, cross, dot
-from ..support.arrays import Column, VectorColumn
-from .base import Floats, Outcome, check, exclude_null, rounding
+from ..support.arrays import Column, Floats, Index, VectorColumn
+from .base import Outcome, check, exclude_null, rounding
 
 
 def vector_sum(segments: Segments, vectors: Iterable[Column]) -> Floats:

@@ -10,17 +10,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh.groups import Groups
 from ..mesh.triangles import EPSILON, NO_AREA
-from ..support.arrays import Value, or_none
+from ..support.arrays import Floats, Mask, Value, or_none
 
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
 
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 # One text for all groups, or a text per group.
 Words = str | Callable[[int], str]
 

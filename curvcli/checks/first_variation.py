@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, cross, dot
-from ..support.arrays import Flags, VectorColumn
+from ..support.arrays import Flags, Floats, VectorColumn
 from ..support.words import counted
-from .base import Floats, Outcome, check
+from .base import Outcome, check
 
 SAMPLES = 64
 

@@ -6,16 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh.counts import classify, count_groups
 from ..mesh.enclosed import volumes
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, LOST, cross, dot
+from ..support.arrays import Floats
 from ..support.blocks import slices
-
-Floats = NDArray[np.float64]
 
 
 def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:

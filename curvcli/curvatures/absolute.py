@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from ..mesh.surface import Surface
-from ..mesh.topology import Index
 from ..mesh.triangles import EPSILON
-from ..support.arrays import Column, Flags
+from ..support.arrays import Column, Flags, Index
 from ..support.blocks import for_each, slices
 from .kernels.normal_cones import normal_cone_areas
 from .quantity import Quantity

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh.surface import Surface
-from ..mesh.topology import Index
-from ..mesh.triangles import Floats, Triangles, dot, triangles
-from ..support.arrays import Column
+from ..mesh.triangles import Triangles, dot, triangles
+from ..support.arrays import Column, Floats, Index
 from ..support.blocks import slices
 from ..support.double_double import THIN_COTANGENT, corner_products
 from .registry import curvature_pass

@@ -9,8 +9,8 @@ import numpy as np
 from ..mesh.neighbourhoods import sums
 from ..mesh.scale import Scale
 from ..mesh.surface import Surface
-from ..mesh.triangles import Floats, dot
-from ..support.arrays import Column, Flags, VectorColumn
+from ..mesh.triangles import dot
+from ..support.arrays import Column, Flags, Floats, VectorColumn
 from ..support.blocks import slices
 from .directions import star_tensors
 from .kernels.tensor import tangential

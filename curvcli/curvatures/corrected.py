@@ -10,9 +10,8 @@ from scipy.sparse import csr_array
 from ..mesh.neighbourhoods import sums
 from ..mesh.scale import Scale
 from ..mesh.surface import Surface
-from ..mesh.topology import Index
-from ..mesh.triangles import EPSILON, Floats, by_corner, cross, dot
-from ..support.arrays import Column, VectorColumn
+from ..mesh.triangles import EPSILON, by_corner, cross, dot
+from ..support.arrays import Column, Floats, Index, VectorColumn
 from ..support.blocks import for_each, slices
 from .kernels.tensor import ENTRIES, half_gap, line, tangential
 from .quantity import Quantity

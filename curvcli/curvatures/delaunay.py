@@ -6,8 +6,7 @@ import numpy as np
 
 from ..mesh.surface import Surface
 from ..mesh.topology import next_corner
-from ..mesh.triangles import Floats
-from ..support.arrays import Column, Flags
+from ..support.arrays import Column, Flags, Floats
 from ..support.blocks import slices
 from .kernels.intrinsic_delaunay import IntrinsicTriangulation
 from .quantity import Quantity

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh.surface import Surface
-from ..mesh.triangles import EPSILON, Floats, dot, span
-from ..support.arrays import Column, VectorColumn
+from ..mesh.triangles import EPSILON, dot, span
+from ..support.arrays import Column, Floats, VectorColumn
 from ..support.blocks import for_each, slices
 from .kernels.tensor import ENTRIES, line, tangential
 from .mean import pointed

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from ..mesh.conormals import conormals
 from ..mesh.surface import Surface
-from ..mesh.topology import InnerEdges, Mask
+from ..mesh.topology import InnerEdges
 from ..mesh.triangles import EPSILON, cross, dot, span
-from ..support.arrays import Column, Flags, VectorColumn
+from ..support.arrays import Column, Flags, Mask, VectorColumn
 from ..support.blocks import for_each, slices
 from .registry import curvature_pass
 from .star import null_where

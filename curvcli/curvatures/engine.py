@@ -11,16 +11,14 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh.neighbourhoods import clear_cache
 from ..mesh.scale import DEFAULTS, Settings
 from ..mesh.sheets import on_single_fans, sheets
 from ..mesh.surface import Surface
+from ..support.arrays import Array
 from ..support.blocks import for_each, slices
 from .quantity import AT_SCALE, CELL_AREA, CELL_AREAS, MASKS, NO_QUANTITIES, SURFACE, Provider, Quantity, Step
-
-Array = NDArray[Any]
 
 # Block size of pointwise passes.
 _VERTICES = 1 << 16

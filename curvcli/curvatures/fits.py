@@ -9,8 +9,8 @@ import numpy as np
 
 from ..mesh.scale import Scale
 from ..mesh.surface import Surface
-from ..mesh.triangles import Floats, dot
-from ..support.arrays import Column, Flags, VectorColumn
+from ..mesh.triangles import dot
+from ..support.arrays import Column, Flags, Floats, VectorColumn
 from ..support.blocks import for_each
 from .kernels.jets import QUADRATIC, Jets, fit
 from .kernels.moments import Moments, moments

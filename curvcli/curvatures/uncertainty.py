@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from ..mesh.precision import precision
 from ..mesh.surface import Surface
-from ..mesh.topology import Index
-from ..mesh.triangles import Floats, Triangles, cross, dot, triangles
-from ..support.arrays import Column, Flags, VectorColumn
+from ..mesh.triangles import Triangles, cross, dot, triangles
+from ..support.arrays import Column, Flags, Floats, Index, VectorColumn
 from ..support.blocks import slices
 from .quantity import Quantity
 from .registry import curvature_pass

@@ -13,8 +13,8 @@ from ..errors import InputError
 from ..mesh.neighbourhoods import Pattern, as_weights, neighbourhoods
 from ..mesh.scale import Scale, rings
 from ..mesh.surface import Surface
-from ..mesh.triangles import Floats, dot, triangles
-from ..support.arrays import Flags, VectorColumn
+from ..mesh.triangles import dot, triangles
+from ..support.arrays import Flags, Floats, VectorColumn
 from ..support.blocks import for_each, slices
 from .kernels.tensor import ENTRIES, WHERE, frame
 from .registry import curvature_pass

@@ -11,8 +11,9 @@ from scipy.sparse.csgraph import breadth_first_order
 
 from ..mesh.surface import Surface
 from ..mesh.topology import ends_of, label_graph, neighbouring_corners, next_corner
+from ..support.arrays import Mask
 from ..support.cache import cached
-from .polygon import Curves, Mask, Rows
+from .polygon import Curves, Rows
 
 
 @dataclass(frozen=True)

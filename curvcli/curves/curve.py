@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import UsageError
-from ..support.arrays import or_none
+from ..support.arrays import Floats, or_none
 from .frames import Bishop, Frenet
 from .holonomy import normal_holonomy
 from .plane import PlaneCurves, plane_curves
-from .polygon import Floats, curves_of
+from .polygon import curves_of
 from .turning import Turning
 from .writhe import MAX_EDGES, writhe
 

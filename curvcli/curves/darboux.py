@@ -9,10 +9,10 @@ import numpy as np
 
 from ..mesh.topology import faces_at
 from ..mesh.triangles import LOST, cross, dot, triangles
+from ..support.arrays import Floats, Mask
 from ..support.blocks import slices
 from .boundary import Boundary
 from .frames import unit
-from .polygon import Floats, Mask
 from .turning import Turning
 
 

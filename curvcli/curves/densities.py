@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh.triangles import dot
+from ..support.arrays import Floats
 from .frames import Frenet
 from .plane import PlaneCurves
-from .polygon import Curves, Floats
+from .polygon import Curves
 from .turning import Turning
 
 

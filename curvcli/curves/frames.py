@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ..mesh.triangles import EPSILON, cross, dot
-from .polygon import Floats, Mask
+from ..support.arrays import Floats, Mask
 from .turning import Turning
 
 

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from .polygon import Floats, curves_of
+from ..support.arrays import Floats
+from .polygon import curves_of
 from .turning import Turning
 
 _EDGES_PER_BLOCK = 4096

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.triangles import EPSILON
+from ..support.arrays import Floats, Mask
 from .frames import Bishop, defined_round, shortest
 from .plane import PlaneCurves
-from .polygon import Curves, Floats, Mask
+from .polygon import Curves
 from .turning import Turning
 
 

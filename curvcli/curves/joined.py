@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.file import Polylines
+from ..support.arrays import Mask
 from .boundary import walk_directed
-from .polygon import Mask, Rows
+from .polygon import Rows
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..errors import UsageError
 from ..mesh.triangles import EPSILON
-from .polygon import Curves, Floats, Mask, Rows
+from ..support.arrays import Floats, Mask
+from .polygon import Curves, Rows
 from .writhe import MAX_EDGES, UNSURE, edge_pairs
 
 LISTED = 100

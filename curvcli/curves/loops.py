@@ -8,10 +8,11 @@ import numpy as np
 
 from ..mesh.surface import Surface
 from ..mesh.triangles import cross
+from ..support.arrays import Floats, Mask
 from .boundary import Boundary, boundary_loops
 from .darboux import Darboux
 from .frames import Bishop, twist, twist_error
-from .polygon import Curves, Floats, Mask, scaled
+from .polygon import Curves, scaled
 from .turning import Turning
 from .writhe import UNSURE, writhe
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import Notice
 from ..mesh.file import Labels
+from ..support.arrays import Floats
 from ..support.words import pluralize
 from .collect import CurveSet, curve_notices
 from .darboux import Darboux
@@ -19,7 +20,6 @@ from .identities import Identity, identities
 from .links import Links, links
 from .loops import complete_sum, components, linking, pull, vector_area
 from .plane import PlaneCurves, plane_curves
-from .polygon import Floats
 from .turning import Turning
 from .writhe import MAX_EDGES, UNSURE, within, writhe
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.triangles import EPSILON, cross, dot
+from ..support.arrays import Floats, Mask
 from .frames import unit
-from .polygon import Curves, Floats, Mask, Rows
+from .polygon import Curves, Rows
 from .turning import Turning
 
 

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
+from ..support.arrays import Floats, Mask
 
-Floats = NDArray[np.float64]
 Rows = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 
 def scaled(values: Floats, power: Rows | NDArray[np.int32]) -> Floats:

@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from ..mesh.triangles import EPSILON
-from .polygon import Curves, Floats, Mask
+from ..support.arrays import Floats, Mask
+from .polygon import Curves
 
 # Sums and differences of unit tangents below this are rounding: the edges are collinear.
 _ROUNDING = 4 * EPSILON

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from ..errors import UsageError
 from ..mesh.triangles import EPSILON
+from ..support.arrays import Floats
 from .plane import plane_curves
-from .polygon import Curves, Floats, Rows
+from .polygon import Curves, Rows
 from .turning import Turning
 
 MAX_EDGES = 20_000

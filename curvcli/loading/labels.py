@@ -22,7 +22,7 @@ from ..mesh.counts import count_groups
 from ..mesh.file import Labels
 from ..mesh.groups import Groups, by_label
 from ..mesh.surface import CutFrom, Surface
-from ..mesh.topology import Index
+from ..support.arrays import Index
 from ..support.words import suggestion
 from .content import open_regular, read_whole
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
+from ..support.arrays import Index
 from ..support.blocks import LONG, for_each, map_pieces, slices
-from .topology import Index
 
 _Found = TypeVar("_Found", bound=NDArray[Any])
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..support.arrays import Index, Ints
 from .orientation import edge_directions
 from .surface import Surface
-from .topology import Index, ends_of, label_graph, neighbouring_corners, previous_corner
+from .topology import ends_of, label_graph, neighbouring_corners, previous_corner
 from .triangles import EPSILON, cross, dot
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 def split_bodies(surface: Surface) -> Surface:

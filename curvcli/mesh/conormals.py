@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..support.arrays import VectorColumn
+from ..support.arrays import Index, VectorColumn
 from .surface import Surface
-from .topology import Index, next_corner
+from .topology import next_corner
 from .triangles import cross, triangles
 
 

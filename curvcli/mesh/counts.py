@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Ints, Mask
 from ..support.blocks import slices
 from ..support.cache import cached
 from .groups import Groups
@@ -15,21 +16,18 @@ from .surface import Surface
 from .triangles import by_corner
 from .welding import position_keys, weld_exact
 
-Counts = NDArray[np.int64]
-Mask = NDArray[np.bool_]
-
 
 @dataclass(frozen=True)
 class GroupCounts:
     """Counts and flags, one entry per group."""
 
-    vertices: Counts
-    edges: Counts
-    faces: Counts
-    euler_characteristic: Counts
-    boundary_edges: Counts
-    nonmanifold_edges: Counts
-    nonmanifold_vertices: Counts
+    vertices: Ints
+    edges: Ints
+    faces: Ints
+    euler_characteristic: Ints
+    boundary_edges: Ints
+    nonmanifold_edges: Ints
+    nonmanifold_vertices: Ints
     closed: Mask
     manifold: Mask
     orientable: Mask
@@ -94,7 +92,7 @@ def _winding_conflicts(surface: Surface) -> Mask:
 class Classification:
     """Components per group, and their boundary loops, genus and crosscaps summed; NaN where one of them is null."""
 
-    components: Counts
+    components: Ints
     boundary_loops: NDArray[np.float64]
     genus: NDArray[np.float64]
     crosscaps: NDArray[np.float64]

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..support.arrays import Floats
 from .counts import count_groups
 from .groups import Groups
 from .surface import Surface
-
-Floats = NDArray[np.float64]
 
 
 def volumes(surface: Surface, groups: Groups) -> Floats:

@@ -8,11 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Floats, Index
 from ..support.cache import cached
 from .incidence import Incidence
-from .topology import Index
-
-Floats = NDArray[np.float64]
 
 
 class Segments:

@@ -6,10 +6,11 @@ from functools import cached_property
 
 import numpy as np
 
+from ..support.arrays import Index, Mask
 from .arrays import frozen
 from .orientation import same_direction
 from .stars import Stars, find_stars
-from .topology import Edges, Index, Mask, ends_of, find_edges, label_graph, renumber_by_lowest_member
+from .topology import Edges, ends_of, find_edges, label_graph, renumber_by_lowest_member
 
 
 class Incidence:

@@ -12,11 +12,11 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..errors import InputError
+from ..support.arrays import Floats, Index, Mask
 from ..support.blocks import for_each, slices
 from .scale import Scale
 from .surface import Surface
-from .topology import Index, Mask
-from .triangles import Floats, dot, span
+from .triangles import dot, span
 
 # Expected entries of a block of rows.
 _ENTRIES_PER_BLOCK = 1 << 21

@@ -8,10 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Index, Mask, Sign
 from ..support.blocks import LONG, slices
-from .topology import Edges, Index, Mask, ends_of, label_graph, neighbouring_corners, renumber_by_lowest_member
-
-Sign = NDArray[np.int8]
+from .topology import Edges, ends_of, label_graph, neighbouring_corners, renumber_by_lowest_member
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..support.arrays import Index
 from ..support.cache import cached
 from ..support.words import counted
 from .surface import Surface
-from .topology import Index, faces_at, find_edges
+from .topology import faces_at, find_edges
 from .triangles import dot
 from .welding import weld_exact, weld_within
 

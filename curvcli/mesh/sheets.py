@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Index
 from .orientation import same_direction
 from .surface import Surface
-from .topology import Edges, Index, faces_at, find_edges, label_graph, neighbouring_corners
+from .topology import Edges, faces_at, find_edges, label_graph, neighbouring_corners
 
 
 def sheets(surface: Surface) -> Surface:

@@ -8,10 +8,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Floats, Sign
 from ..support.compensated import two_difference, two_product
-from .triangles import EPSILON, Floats, Vector, dot
+from .triangles import EPSILON, Vector, dot
 
-Sign = NDArray[np.int8]
 # A function from columns to signs.
 _Decide = Callable[[NDArray[np.intp]], Sign]
 

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from ..support.arrays import Index, Mask
 from ..support.blocks import LONG, slices
 from .orientation import same_direction
-from .topology import Edges, Index, Mask, faces_at, find_edges, label_graph, neighbouring_corners
+from .topology import Edges, faces_at, find_edges, label_graph, neighbouring_corners
 
 # Stars with more faces use the graph of corners, because the walk compares each face with each.
 _WALK_LIMIT = 16

@@ -11,22 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError, Notice
+from ..support.arrays import Index, Mask, Sign
 from ..support.words import counted
 from .arrays import as_components, as_triangles, frozen, with_repeated_corner
 from .groups import Groups, by_label, whole
 from .incidence import Incidence
-from .orientation import (
-    Orientation,
-    Sign,
-    Uncancelled,
-    closed_patches,
-    orient,
-    orient_stars,
-    uncancelled,
-    uncancelled_rim,
-)
+from .orientation import Orientation, Uncancelled, closed_patches, orient, orient_stars, uncancelled, uncancelled_rim
 from .solids.patches import Solids
-from .topology import Index, Mask, renumber_by_lowest_member, vertex_components
+from .topology import renumber_by_lowest_member, vertex_components
 from .volumes import triple_products
 
 if TYPE_CHECKING:

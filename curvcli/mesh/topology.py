@@ -15,10 +15,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
+from ..support.arrays import Index, Mask
 from ..support.blocks import LONG, for_each, slices
-
-Index = NDArray[np.int32]
-Mask = NDArray[np.bool_]
 
 # The first search uses one of so many faces; they nearly always join all pieces that can be joined.
 _SAMPLE = 8

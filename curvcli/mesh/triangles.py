@@ -12,10 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Floats, Index, Mask
 from ..support.compensated import cross_of_edges
-from .topology import Index, Mask
 
-Floats = NDArray[np.float64]
 Vector = Sequence[Floats] | Floats
 
 EPSILON = float(np.finfo(np.float64).eps)

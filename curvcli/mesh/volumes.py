@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Floats, Index
 from ..support.blocks import slices
-from .topology import Index
-from .triangles import EPSILON, Floats, Triangles, dot, triangles
+from .triangles import EPSILON, Triangles, dot, triangles
 
 
 def triple_products(xyz: Floats, faces: Index, label: Index) -> Floats:

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from ..support.arrays import Floats
+
 Colors = NDArray[np.uint8]
 
 # Larger meshes are drawn without cells, which would be smaller than a pixel.

@@ -18,7 +18,7 @@ from .statistics import ColumnStatistics
 if TYPE_CHECKING:
     from ..mesh.file import MeshFile
 
-# Of a polynomial of degree 3, lowest power first.
+# For a polynomial of degree 3, lowest power first.
 POWERS = 4
 Coefficients = Annotated[list[float | None], msgspec.Meta(min_length=POWERS, max_length=POWERS)]
 

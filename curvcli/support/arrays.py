@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Column = NDArray[np.float64]
-VectorColumn = NDArray[np.float64]  # (3, n), one contiguous row per coordinate
-Flags = NDArray[np.bool_]
+# By the type of their numbers.
+Array = NDArray[Any]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Index = NDArray[np.int32]
+Mask = NDArray[np.bool_]
+Sign = NDArray[np.int8]
+
+# As columns of vertices, edges or faces.
+Column = Floats
+VectorColumn = Floats  # (3, n), one contiguous row per coordinate
+Flags = Mask
 Codes = NDArray[np.int8]
 Counts = NDArray[np.int32]
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from ..support.arrays import Floats
 
-Floats = NDArray[np.float64]
 Triple = tuple[Floats, Floats, Floats] | list[Floats]
 
 _SPLITTER = 134217729.0  # 2²⁷ + 1 cuts a double into two halves whose products are exact

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..support.arrays import Floats
 from .compensated import two_difference, two_product
-
-Floats = NDArray[np.float64]
 
 # In a triangle with a larger cotangent, plain dot products of its edges lose more than 1e-13 of its area.
 THIN_COTANGENT = 64.0

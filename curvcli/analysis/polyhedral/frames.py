@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from ...mesh.triangles import EPSILON
+from ...support.arrays import Floats, Ints
 from .simplicial import odd
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

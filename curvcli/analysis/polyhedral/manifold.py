@@ -19,11 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from ...checks.base import Check
 from ...errors import InputError, UsageError
 from ...mesh.triangles import EPSILON
+from ...support.arrays import Floats, Ints
 from .frames import Frames, frames
 from .simplicial import Complex
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 class PolyhedralManifold:

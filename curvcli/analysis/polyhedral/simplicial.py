@@ -11,12 +11,9 @@ from functools import cached_property
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import InputError
-
-Ints = NDArray[np.int64]
-Mask = NDArray[np.bool_]
+from ...support.arrays import Ints, Mask
 
 
 class Complex:

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.triangles import Triangles, Vector, dot, triangles
+from ...support.arrays import Floats
 from ...support.blocks import slices
 from ...support.double_double import THIN_COTANGENT, cross, differences, product
 
 if TYPE_CHECKING:
     from ...mesh.surface import Surface
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

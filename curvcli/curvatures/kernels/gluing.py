@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...mesh.orientation import same_direction
-from ...mesh.topology import Index, Mask
+from ...support.arrays import Index, Mask
 
 if TYPE_CHECKING:
     from ...mesh.surface import Surface

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.signs import exact_sides, sides
-from ...mesh.topology import Mask
-from ...mesh.triangles import Floats, cross, dot
+from ...mesh.triangles import cross, dot
+from ...support.arrays import Floats, Mask
 
 # Factors beyond this power of two are applied in steps.
 _LARGEST_POWER = 1000

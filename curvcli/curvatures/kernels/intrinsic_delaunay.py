@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...mesh.topology import Mask, next_corner, previous_corner
-from ...mesh.triangles import EPSILON, Floats, dot, span, triangles
+from ...mesh.topology import next_corner, previous_corner
+from ...mesh.triangles import EPSILON, dot, span, triangles
+from ...support.arrays import Floats, Mask
 from ...support.blocks import slices
 from ...support.double_double import THIN_COTANGENT, DoubleDouble, corner_products, empty
 from .gluing import glue

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh.topology import Mask
-from ...mesh.triangles import EPSILON, Floats
+from ...mesh.triangles import EPSILON
+from ...support.arrays import Floats, Mask
 from .moments import Moments
 
 # Monomials xⁱ yʲ by degree: 1; x, y; x², xy, y²; …

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from ...mesh.neighbourhoods import Pattern, adjacency, as_weights, neighbourhoods
 from ...mesh.scale import Scale
 from ...mesh.surface import Surface
-from ...mesh.triangles import Floats, dot
+from ...mesh.triangles import dot
+from ...support.arrays import Floats
 from .tensor import frame
 
 # The highest power of a coordinate in the products of two monomials of degree 4, and of x beside z.

@@ -11,8 +11,8 @@ from itertools import combinations
 
 import numpy as np
 
-from ...mesh.topology import Mask
-from ...mesh.triangles import EPSILON, Floats, cross, dot
+from ...mesh.triangles import EPSILON, cross, dot
+from ...support.arrays import Floats, Mask
 from .hulls import hull_cone_areas
 
 # Up to so many directions, all determinants cost less than an incremental hull.

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh.orientation import Sign
 from ...mesh.surface import Surface
-from ...mesh.topology import Index, Mask, faces_at
-from ...mesh.triangles import Floats, Triangles, cross, triangles
+from ...mesh.topology import faces_at
+from ...mesh.triangles import Triangles, cross, triangles
+from ...support.arrays import Floats, Index, Mask, Sign
 from ...support.blocks import ENTRIES, slices
 
 # Stars with more faces are summed pairwise.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.triangles import EPSILON, Floats, cross, dot
-from ...support.arrays import VectorColumn
+from ...mesh.triangles import EPSILON, cross, dot
+from ...support.arrays import Floats, VectorColumn
 
 # The six entries of a symmetric 3 × 3 matrix, and the position of each of the nine among them.
 ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))

@@ -8,11 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...support.arrays import Floats, Ints, Mask
 from ...support.blocks import slices
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 # Children of a node, and number of candidates expanded at a time.
 _WIDTH = 4

@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...support.arrays import Floats, Ints, Mask
 from ..triangles import cross, dot
-from .sides import CERTAIN, ROUNDING, Floats, Ints, Mask, Sides, certain_sign, permanent, size
+from .sides import CERTAIN, ROUNDING, Sides, certain_sign, permanent, size
 
 _EDGES = ((0, 1), (1, 2), (2, 0))
 # Sample points on an edge, and from there towards the opposite corner.

@@ -11,10 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...support.arrays import Floats, Ints, Mask
 from ...support.blocks import slices
 from .boxes import BoxTree
 from .contacts import find_contacts, samples
-from .sides import INSIDE, OUTSIDE, ROUNDING, Floats, Ints, Mask, Sides
+from .sides import INSIDE, OUTSIDE, ROUNDING, Sides
 
 # Number of pairs of faces in contact, per pair of surfaces, that are sampled for points on both sides.
 _CONTACTS = 20_000

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...support.arrays import Mask
 from ...support.cache import cached
 from ..arrays import frozen
-from ..topology import Mask
 from ..volumes import volume_errors
 
 if TYPE_CHECKING:

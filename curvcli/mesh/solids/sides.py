@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...support.arrays import Floats, Ints, Mask
 from ...support.blocks import slices
-from ..triangles import EPSILON, cross, dot
+from ..triangles import EPSILON, Vector, cross, dot
 from .boxes import BoxTree
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Mask = NDArray[np.bool_]
-Vector = Sequence[Floats] | Floats
 
 # Determinants of three differences of coordinates have an error below 5ε times the sum of their absolute terms.
 CERTAIN = 8 * EPSILON

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.surface import Surface
-
-Index = NDArray[np.int32]
+from ...support.arrays import Index
 
 # Relative gap allowed between the number of cells and its limit, and the most trials of the size of a cell.
 _NEAR, _TRIES = 0.9, 8

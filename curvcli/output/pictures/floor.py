@@ -6,20 +6,19 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...curvatures.catalogue import UNCERTAINTIES
 from ...curvatures.quantity import AT_SCALE, Quantity
 from ...mesh.precision import is_single, last_place
 from ...mesh.topology import next_corner
 from ...mesh.triangles import EPSILON
+from ...support.arrays import Floats
 from ...support.blocks import slices
 from ...support.cache import cached
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
 
-Floats = NDArray[np.float64]
 
 # Rounding of an angle defect of exact coordinates.
 _DEFECT = 16 * EPSILON * 2 * np.pi

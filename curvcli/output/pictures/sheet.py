@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ...support.words import escape_text
 from .framing import background_rgb
+from .render import Color
 
-Color = tuple[float, float, float]
 Box = tuple[float, float, float, float]  # left, top, width, height in pixels, from the upper left corner
 
 _FONT = "DejaVu Sans"

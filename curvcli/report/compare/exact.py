@@ -8,12 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...curvatures.catalogue import load_passes
 from ...curvatures.registry import passes
-
-Floats = NDArray[np.float64]
+from ...support.arrays import Floats
 
 # Exact columns by the stem of the computed ones; columns that are odd in the normal have a sign.
 _STEMS = ("kappa_1", "kappa_2", "K", "h")
