@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .legend import Colored, raised, range_text, ticks
-from .sheet import Box, Color, Item, Sheet
+from .render import Color
+from .sheet import Box, Item, Sheet
 
 
 def draw_title(

@@ -16,8 +16,8 @@ from .camera import screen
 from .framing import Look, arrange
 from .legend import Colored, about, mesh_name, sentence
 from .panels import draw_bar, draw_title, legend
-from .render import Lines, Pixels, render
-from .sheet import LINE, Color, Item, Sheet
+from .render import Color, Lines, Pixels, render
+from .sheet import LINE, Item, Sheet
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
