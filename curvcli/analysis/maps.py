@@ -214,7 +214,7 @@ class SurfaceMap:
     def notices(self) -> list[Notice]:
         """Notices of faces where f is undefined, faces that f flattens, and values beyond the file's unit."""
         collapsed = np.flatnonzero(self.stretch.collapsed)
-        told = (
+        defects = (
             (
                 "degenerate_source_faces",
                 self._degenerate,
@@ -234,7 +234,7 @@ class SurfaceMap:
                 "the image is folded; column orientation of `--table faces=PATH` is -1 there",
             ),
         )
-        found = [Notice.at(code, at, text, hint) for code, at, text, hint in told if len(at)]
+        found = [Notice.at(code, at, text, hint) for code, at, text, hint in defects if len(at)]
         return [*found, *out_of_range(self._lost)]
 
     # ------------------------------------------------------------------ tables

@@ -188,8 +188,8 @@ class Run:
             say(line.text)
         if others:
             say(f"{others}; {self.output} has all of them")
-        told, _ = warnings([mesh for mesh in report.meshes if mesh.status == "fail"], _TOLD)
-        for mesh, remark in told:
+        shown_warnings, _ = warnings([mesh for mesh in report.meshes if mesh.status == "fail"], _TOLD)
+        for mesh, remark in shown_warnings:
             say(f"warning: {warning(mesh, remark)}")
 
 

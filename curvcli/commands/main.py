@@ -98,8 +98,8 @@ class LazyGroup(click.Group):
 
             way_out = suggestion(name, COMMANDS, "`curvcli --help` lists them")
             raise click.UsageError(f"no such command {name!r}{way_out}", ctx)
-        told = name in UNCONFIGURED or set(args).intersection(ctx.help_option_names)
-        if not ctx.resilient_parsing and not told:
+        skipped = name in UNCONFIGURED or set(args).intersection(ctx.help_option_names)
+        if not ctx.resilient_parsing and not skipped:
             find: Callable[[str], click.Command | None] = lambda command: self.get_command(ctx, command)  # noqa: E731
             configure(ctx, ctx.params.get("config"), find, ctx.params.get("no_config", False))
         require(NUMPY)

@@ -248,8 +248,8 @@ def _write_mesh(stream: BinaryIO, analysis: Result, suffix: str, appearance: App
 
 def _comments(analysis: Result, painted: tuple[str, ColorScale] | None) -> list[str]:
     convention = "k1 + k2" if analysis.conventions.mean == "sum" else "(k1 + k2) / 2"
-    told = [f"curvcli: H = {convention}, positive where convex; NaN is undefined"]
+    comments = [f"curvcli: H = {convention}, positive where convex; NaN is undefined"]
     if painted is not None and painted[1].low is not None:
         name, scale = painted
-        told.append(f"colour: {name} from {scale.low!r} to {scale.high!r}, {scale.cmap}")
-    return told
+        comments.append(f"colour: {name} from {scale.low!r} to {scale.high!r}, {scale.cmap}")
+    return comments

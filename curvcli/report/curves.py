@@ -130,10 +130,10 @@ def _checks(identity: Identity) -> list[Check]:
     reason = np.full(len(passed), -1)
     for number, (mask, _) in enumerate(identity.excluded):
         reason[mask & (reason < 0)] = number
-    told = np.arange(len(passed))
+    selected = np.arange(len(passed))
     if len(passed) > LISTED_CURVES:
-        told = np.flatnonzero(~passed & (reason < 0))
-    listed = [_check(identity, int(c), bool(passed[c]), int(reason[c])) for c in told]
+        selected = np.flatnonzero(~passed & (reason < 0))
+    listed = [_check(identity, int(c), bool(passed[c]), int(reason[c])) for c in selected]
     if len(passed) > LISTED_CURVES and not listed:
         listed = [_summary(identity, reason)]
     return listed

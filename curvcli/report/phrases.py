@@ -64,8 +64,8 @@ def conventions(report: Report) -> dict[str, str]:
         "unit of length": chosen["unit"] or "that of the file",
         "undefined": "null: neither 0 nor left out of a count",
     }
-    told = ("mean", "area", "orient", "weld", "unit")
-    return found | {key: str(value) for key, value in chosen.items() if key not in told and value is not None}
+    described = ("mean", "area", "orient", "weld", "unit")
+    return found | {key: str(value) for key, value in chosen.items() if key not in described and value is not None}
 
 
 def failing_first(rows: Iterable[Check]) -> list[Check]:

@@ -42,13 +42,13 @@ def write_ply(
     vertices: dict[str, NDArray[Any]] = {axis: points[:, k] for k, axis in enumerate("xyz")}
     if (colors := parts.get("vertex_colors")) is not None:
         vertices |= {name: colors[:, k] for k, name in enumerate(("red", "green", "blue"))}
-    told = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
+    comments = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
     of_vertices, of_faces = parts.get("vertex_properties") or {}, parts.get("face_properties") or {}
     if clash := vertices.keys() & of_vertices.keys():
         raise ValueError(f"two vertex properties named {', '.join(sorted(clash))}")
     words = fitting(of_vertices, one_word, vertices), fitting(of_faces, one_word, (_CORNERS,))
-    vertices |= _scalars(of_vertices, words[0], told)
-    per_face = _scalars(of_faces, words[1], told)
+    vertices |= _scalars(of_vertices, words[0], comments)
+    per_face = _scalars(of_faces, words[1], comments)
     corners, sizes = parts.get("polygons") or (faces.reshape(-1), None)
     if sizes is not None and len(sizes) and sizes.min() == sizes.max() > 0:
         corners, sizes = corners.reshape(-1, int(sizes[0])), None
@@ -57,7 +57,7 @@ def write_ply(
     widest = corners.shape[1] if sizes is None else int(sizes.max(initial=0))
     count = "<u1" if widest <= 255 else "<u4"
 
-    header = ["ply", "format binary_little_endian 1.0", *(f"comment {_ascii(line)}" for line in told)]
+    header = ["ply", "format binary_little_endian 1.0", *(f"comment {_ascii(line)}" for line in comments)]
     header.append(f"element vertex {len(points)}")
     header += [f"property {_SCALARS[column.dtype.str[1:]]} {name}" for name, column in vertices.items()]
     header.append(f"element face {len(corners) if sizes is None else len(sizes)}")
@@ -138,14 +138,14 @@ def _mixed(
         start = stop
 
 
-def _scalars(columns: Mapping[str, Column], words: Mapping[str, str], told: list[str]) -> dict[str, NDArray[Any]]:
+def _scalars(columns: Mapping[str, Column], words: Mapping[str, str], comments: list[str]) -> dict[str, NDArray[Any]]:
     """Columns in the scalar types of PLY, little-endian; the meaning of label codes is added to the comments."""
-    return {words[name]: _scalar(words[name], column, told) for name, column in columns.items()}
+    return {words[name]: _scalar(words[name], column, comments) for name, column in columns.items()}
 
 
-def _scalar(name: str, column: Column, told: list[str]) -> NDArray[Any]:
+def _scalar(name: str, column: Column, comments: list[str]) -> NDArray[Any]:
     if isinstance(column, Labels):
-        return _codes(name, column, told)
+        return _codes(name, column, comments)
     if isinstance(column, np.ma.MaskedArray):
         return np.where(np.ma.getmaskarray(column), np.nan, np.ma.getdata(column)).astype("<f8", copy=False)
     if column.dtype == np.bool_:
@@ -158,9 +158,9 @@ def _scalar(name: str, column: Column, told: list[str]) -> NDArray[Any]:
     return column.astype(column.dtype.newbyteorder("<"), copy=False)
 
 
-def _codes(name: str, labels: Labels, told: list[str]) -> NDArray[Any]:
+def _codes(name: str, labels: Labels, comments: list[str]) -> NDArray[Any]:
     few = len(labels.names) <= 255
-    told.append(meaning(name, labels, 255 if few else -1))
+    comments.append(meaning(name, labels, 255 if few else -1))
     if not few:
         return labels.codes.astype("<i4", copy=False)
     return np.where(labels.codes < 0, np.uint8(255), labels.codes.astype(np.uint8))

@@ -42,7 +42,7 @@ def write_vtk(
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
     data, arrays = _mesh(suffix, faces, parts.get("polygons"))
-    told = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
+    comments = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
     at = vtkPoints()
     at.SetData(_array(points, arrays))
     data.SetPoints(at)
@@ -57,7 +57,7 @@ def write_vtk(
         words.append(fitting(given, xml_name, taken))
         properties = {words[-1][name]: column for name, column in given.items()}
         for name, column in properties.items():
-            _add(target, name, _values(name, column, told), arrays)
+            _add(target, name, _values(name, column, comments), arrays)
         for stem in _vectors(properties, taken):
             components = [np.asarray(properties[f"{stem}_{axis}"], np.float64) for axis in "xyz"]
             _add(target, stem, np.stack(components, axis=1), arrays)
@@ -80,7 +80,7 @@ def write_vtk(
     # After the first line, of the root or above it; offsets in the file count from the data, not from here.
     start = bytes(content[:1000]).index(b"\n") + 1
     stream.write(content[:start])
-    stream.write(_comment(told))
+    stream.write(_comment(comments))
     stream.write(content[start:])
     return respelt(*words)
 
@@ -106,10 +106,10 @@ def _mesh(suffix: str, faces: NDArray[np.integer[Any]], polygons: Polygons | Non
     return grid, [offsets, flat, kinds]
 
 
-def _values(name: str, column: Column, told: list[str]) -> NDArray[Any]:
+def _values(name: str, column: Column, comments: list[str]) -> NDArray[Any]:
     """Column as an array of one of VTK's types; the meaning of codes is added to the comments."""
     if isinstance(column, Labels):
-        told.append(meaning(name, column, -1))
+        comments.append(meaning(name, column, -1))
         return column.codes.astype(np.int32 if len(column.names) > 127 else np.int8)
     if isinstance(column, np.ma.MaskedArray):
         return np.where(np.ma.getmaskarray(column), np.nan, np.ma.getdata(column)).astype(np.float64)

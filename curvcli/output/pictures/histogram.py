@@ -90,9 +90,9 @@ def write_histograms(
             _numbers(sheet, one, areas, analysis, box, font)
         sheet.draw(legends[place], left, top + height - below - 0.2 * font, small)
     sheet.draw(footer, margin, size[1] - len(footer) * LINE * small - 0.5 * margin, small)
-    told = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
+    sentences = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
     name = f"{mesh_name(analysis)}: histograms"
-    stream.write(sheet.png({"Title": name, "Description": "\n".join(told), "Software": f"curvcli {__version__}"}))
+    stream.write(sheet.png({"Title": name, "Description": "\n".join(sentences), "Software": f"curvcli {__version__}"}))
 
 
 def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Result, box: Box, font: float) -> None:

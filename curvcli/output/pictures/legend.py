@@ -112,16 +112,16 @@ def about(analysis: Result, columns: Sequence[Colored]) -> list[str]:
 def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
     """Conventions that the columns shown depend on."""
     chosen = analysis.conventions
-    told = []
+    choices = []
     if any(quantity.mean_degree for quantity in quantities):
-        told.append("H = κ₁ + κ₂" if chosen.mean == "sum" else "H = (κ₁ + κ₂)/2")
+        choices.append("H = κ₁ + κ₂" if chosen.mean == "sum" else "H = (κ₁ + κ₂)/2")
     if any(quantity.signed and quantity.mean_degree for quantity in quantities):
-        told[-1] += ", positive where convex"
+        choices[-1] += ", positive where convex"
     if any(analysis.depends_on_area(quantity.name) for quantity in quantities):
-        told.append(f"area {chosen.area}")
+        choices.append(f"area {chosen.area}")
     if chosen.weld != "none":
-        told.append(f"weld {chosen.weld}")
-    return told
+        choices.append(f"weld {chosen.weld}")
+    return choices
 
 
 def ticks(low: float, high: float, room: int, whole: bool = False) -> tuple[list[float], list[str], int]:

@@ -73,8 +73,10 @@ def write_picture(
     for place, pixels in shown.items() if columns else enumerate(draw([plain], lines)):
         sheet.image(pixels, *page.corner(place))
     page.draw()
-    told = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
-    stream.write(sheet.png({"Title": page.name, "Description": "\n".join(told), "Software": f"curvcli {__version__}"}))
+    sentences = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
+    stream.write(
+        sheet.png({"Title": page.name, "Description": "\n".join(sentences), "Software": f"curvcli {__version__}"})
+    )
 
 
 class _Page:

@@ -85,7 +85,7 @@ def _write_text(
     _check_names(columns)
     for number, frame in enumerate(_frames(_for_spreadsheets(columns))):
         if stop is not None and stop.is_set():
-            raise InterruptedError("told to stop")
+            raise InterruptedError("stopped")
         if threads_lost():
             to.write(_text(frame, separator, digits, header=not number))
             continue
@@ -193,7 +193,7 @@ class _Relay(io.RawIOBase):
     def write(self, data: Any) -> int:
         try:
             if self.stop is not None and self.stop.is_set():
-                raise InterruptedError("told to stop")
+                raise InterruptedError("stopped")
             return self.stream.write(data)
         except BaseException as failure:
             self.failure = failure

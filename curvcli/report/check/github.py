@@ -22,8 +22,8 @@ def write_github(report: CheckReport) -> bytes:
     lines = [_command("error", f"curvcli {one.outcome.label}", one.text, one.mesh.path) for one in failed]
     if others:
         lines.append(_command("error", "curvcli", others))
-    told, _ = warnings(report.meshes)
-    lines += [_command("warning", f"curvcli {one.code}", warning(mesh, one), mesh.path) for mesh, one in told]
+    shown_warnings, _ = warnings(report.meshes)
+    lines += [_command("warning", f"curvcli {one.code}", warning(mesh, one), mesh.path) for mesh, one in shown_warnings]
     if configuration := sentence(report.configuration):
         lines.append(_command("notice", "curvcli configuration", configuration))
     lines.append(f"curvcli: {summary(report)}")

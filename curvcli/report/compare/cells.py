@@ -101,8 +101,8 @@ def _moved(name: str, one: Cells, other: Cells, typical: float, noise: float, to
     lost = bool(only_one.any())
     row = int(np.argmax(only_one if lost else np.where(beyond, gap, -1.0)))
     cells = [None if math.isnan(side[row]) else float(side[row]) for side in (one, other)]
-    told = (None, None) if lost else (float(gap[row]), float(allowed[row]))
-    return MovedColumn(name, len(one), differing, row, *cells, *told)
+    move = (None, None) if lost else (float(gap[row]), float(allowed[row]))
+    return MovedColumn(name, len(one), differing, row, *cells, *move)
 
 
 class _Scales:

@@ -45,7 +45,7 @@ def _errors(found: Accuracy) -> Iterator[Table]:
         for name, row in found.errors.items():
             late = found.rtol is not None and row.relative_l2 is not None and row.relative_l2 > found.rtol
             relative = _number(row.relative_l2)
-            told = {
+            cells = {
                 "column": name,
                 "against": row.exact,
                 "relative L2": f"[bold red]{relative}[/bold red]" if late else relative,
@@ -57,7 +57,7 @@ def _errors(found: Accuracy) -> Iterator[Table]:
                 "null": f"{row.nulls:,}" if row.nulls else "",
                 "compared": f"{row.compared:,}",
             }
-            table.add_row(*(told[key] for key in (*names, *numbers)))
+            table.add_row(*(cells[key] for key in (*names, *numbers)))
         yield table
 
 

@@ -57,8 +57,8 @@ def _show_trouble(console: Console, report: CheckReport, verbose: int) -> None:
         console.print(f"{MARKS[line.outcome.status]} {escape(line.text)}", soft_wrap=True)
     if others:
         console.print(f"{MARKS[FAIL]} {others}; -v lists all of them", soft_wrap=True)
-    told, left_out = warnings(report.meshes, remarks)
-    for mesh, remark in told:
+    shown_warnings, left_out = warnings(report.meshes, remarks)
+    for mesh, remark in shown_warnings:
         console.print(f"[yellow]warning[/yellow] {escape(warning(mesh, remark))}", soft_wrap=True)
     if left_out:
         console.print(f"[yellow]warning[/yellow] {counted(left_out, 'more warning')}; -v lists all of them")
@@ -68,8 +68,8 @@ def summary(report: CheckReport) -> str:
     """Number of meshes and checks that passed, in one line."""
     outcomes = [outcome for mesh in report.meshes for outcome in mesh.outcomes if outcome.kind != INPUT]
     counts = {status: sum(outcome.status == status for outcome in outcomes) for status in _ORDER}
-    told = f"{counts[PASS]:,} checks hold, {counts[FAIL]:,} fail, {counts[NOT_APPLICABLE]:,} do not apply"
-    return f"{meshes_pass(report.meshes)}: {told}"
+    numbers = f"{counts[PASS]:,} checks hold, {counts[FAIL]:,} fail, {counts[NOT_APPLICABLE]:,} do not apply"
+    return f"{meshes_pass(report.meshes)}: {numbers}"
 
 
 def _outcomes(mesh: CheckedMesh, verbose: int) -> Iterator[Table]:
@@ -117,8 +117,8 @@ def _meshes(report: CheckReport, verbose: int) -> Iterator[Table]:
             if rest := [mesh for mesh in listed[most:] if mesh.status == status]:
                 numbers = _numbers(rest)
                 row = ("" if status == ERROR else f"{numbers[name]:,}" for name in counts)
-                told = counted(len(rest), "more mesh", "more meshes")
-                table.add_row(f"[dim]{told}[/dim]", MARKS[status], *row)
+                label = counted(len(rest), "more mesh", "more meshes")
+                table.add_row(f"[dim]{label}[/dim]", MARKS[status], *row)
         yield table
 
 

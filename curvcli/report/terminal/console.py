@@ -57,8 +57,8 @@ class Console(rich.console.Console):
 
 def show_configuration(console: rich.console.Console, field: Configured) -> None:
     """Line below the verdict if a configuration file affects it."""
-    if told := sentence(field):
-        console.print(escape(told), style="yellow", soft_wrap=True)
+    if text := sentence(field):
+        console.print(escape(text), style="yellow", soft_wrap=True)
 
 
 def report_console(least: int = 0, stream: TextIO | None = None) -> Console:

@@ -36,9 +36,9 @@ def show(report: CurveReport, verbose: int = 0) -> None:
         console.print(f"linked curves: {', '.join(shown)}{more}")
     console.print(fitting(console, _checks(report.checks, verbose)))
     show_configuration(console, report.configuration)
-    told = "Σψ: total curvature; writhe in turns; holonomy ≡ 2π · writhe. "
+    symbols = "Σψ: total curvature; writhe in turns; holonomy ≡ 2π · writhe. "
     proves = "unknotted: Σψ ≤ 4π proves it for a curve that does not cross itself; a larger Σψ proves nothing."
-    console.print(f"[dim]{told}{proves}[/dim]")
+    console.print(f"[dim]{symbols}{proves}[/dim]")
 
 
 def _curves(rows: list[CurveRow]) -> Iterator[Table]:
@@ -56,7 +56,7 @@ def _curves(rows: list[CurveRow]) -> Iterator[Table]:
         if knots:
             table.add_column("knot", no_wrap=True)
         for row in rows:
-            told = {"curve": str(row.curve), "kind": row.kind, "closed": "closed" if row.closed else "open"}
+            cells = {"curve": str(row.curve), "kind": row.kind, "closed": "closed" if row.closed else "open"}
             found = {
                 "length": row.length,
                 "Σψ": row.total_curvature,
@@ -65,9 +65,9 @@ def _curves(rows: list[CurveRow]) -> Iterator[Table]:
                 "writhe": row.writhe,
                 "holonomy": row.holonomy,
             }
-            told |= {"vertices": f"{row.vertices:,}"} | {key: _number(value, digits) for key, value in found.items()}
+            cells |= {"vertices": f"{row.vertices:,}"} | {key: _number(value, digits) for key, value in found.items()}
             knot = ("unknotted" if row.unknotted else "",) if knots else ()
-            table.add_row(*(told[name] for name in (*names, *chosen)), *knot)
+            table.add_row(*(cells[name] for name in (*names, *chosen)), *knot)
         yield table
 
 

@@ -79,9 +79,9 @@ def _checks(rows: list[Check], verbose: int) -> Iterator[Table]:
             scope = (escape(row.scope),) if scoped else ()
             table.add_row(name, *scope, MARKS[row.status], *numbers, *((escape(row.detail),) if wide else ()))
         if hidden:
-            told = f"[dim]{hidden:,} more on {pieces}, none failed; -v[/dim]"
-            first = "[dim]…[/dim]" if wide else told
-            table.add_row(first, *(("",) if scoped else ()), MARKS["pass"], "", "", *((told,) if wide else ()))
+            more = f"[dim]{hidden:,} more on {pieces}, none failed; -v[/dim]"
+            first = "[dim]…[/dim]" if wide else more
+            table.add_row(first, *(("",) if scoped else ()), MARKS["pass"], "", "", *((more,) if wide else ()))
         if not wide:
             table.columns[0].no_wrap, table.columns[0].min_width = False, _NAME
         yield table
