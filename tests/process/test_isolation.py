@@ -23,7 +23,8 @@ DANGEROUS = {
     *("urllib.request", "subprocess", "multiprocessing", "ctypes", "cffi"),
 }
 # `batch` works in processes of its own and talks with them, and only with them, through pipes that nobody else has;
-# the C library keeps memory as the commands set it, and gives it back between meshes; pictures ask whether the system has OpenGL, which VTK needs.
+# the C library keeps memory as the commands set it, and gives it back between meshes; pictures ask whether the system
+# has OpenGL, which VTK needs.
 ALLOWED = {
     ("curvcli/commands/allocation.py", "ctypes"),
     ("curvcli/support/memory.py", "ctypes"),
