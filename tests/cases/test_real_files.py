@@ -68,6 +68,7 @@ def wanted(row: dict[str, str]) -> dict[str, int]:
     return {key: int(row[column]) for column, key in TOPOLOGY.items() if row[column] and column not in left_out}
 
 
+@pytest.mark.slow
 @needs_shared
 @pytest.mark.parametrize("name", ROWS)
 def test_a_real_file_ends_as_the_index_says(

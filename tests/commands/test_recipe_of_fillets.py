@@ -29,6 +29,7 @@ def verdict(part: Mesh, folder: Path) -> int:
     return program("check", part.write(folder / "part.obj"), *recipe(), "-q").code
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("segments", [3, 8])
 @pytest.mark.parametrize("profile", PROFILES)
 @pytest.mark.parametrize(("radius", "code"), [(0.5, 1), (1.5, 1), (1.9, 1), (2.2, 0), (3.0, 0)])
@@ -39,6 +40,7 @@ def test_fillets_of_rings_are_judged_by_their_radius(
     assert verdict(part, tmp_path) == code
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("profile", PROFILES)
 def test_one_sharp_or_tight_corner_is_enough(profile: str, tmp_path: Path) -> None:
     """Convex and concave corners, each alone among wide fillets."""

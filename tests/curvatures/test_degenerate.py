@@ -184,6 +184,7 @@ def test_small_and_far_away(name: str) -> None:
     matches(given.moved(given.points * size + np.array([1e12, -0.7e12, 0.4e12])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degree", [100, 1000, 5000])
 @pytest.mark.parametrize("regular", [True, False])
 @pytest.mark.parametrize("closed", [True, False])

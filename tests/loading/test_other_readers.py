@@ -106,6 +106,7 @@ def real() -> Iterator[Any]:
                 yield pytest.param(SHARED / "meshes" / row["file"], id=row["file"])
 
 
+@pytest.mark.slow
 @needs_shared
 @pytest.mark.parametrize("reader", READERS)
 @pytest.mark.parametrize("path", list(real()))

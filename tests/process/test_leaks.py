@@ -62,6 +62,7 @@ USES: dict[str, Callable[[Analysis, Path], object]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_collector")
 @pytest.mark.parametrize("use", USES)
 def test_no_output_keeps_an_analysis(use: str, tmp_path: Path) -> None:
