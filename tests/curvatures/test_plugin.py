@@ -65,4 +65,4 @@ def test_a_broken_plug_in_is_named_in_one_line(tmp_path: Path) -> None:
 def test_without_plug_ins_their_names_are_unknown(tmp_path: Path) -> None:
     ended = run(dict(os.environ), "passes", "K_squared")
     assert ended.returncode == 2
-    assert "no quantity is called 'K_squared'" in ended.stderr
+    assert "unknown quantity 'K_squared'" in ended.stderr
