@@ -9,7 +9,7 @@ from itertools import count
 
 from ..errors import NoMatchError, UsageError
 from ..output.destinations import folded
-from ..output.formats import FORMATS, format_of
+from ..output.registry import format_of, output_formats
 from ..output.tables.columns import TABLES
 from ..support.words import escape_text, suggestion
 from .locations import absolute, expand, is_url, listed, local, parts_of, read_url, root_of
@@ -91,7 +91,7 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
 
 def _split(save: str) -> tuple[str, str]:
     """Kind of table and suffix of `edges.csv`; no kind for a suffix alone, also one of two parts, as hist.png."""
-    kind, _, suffix = ("", "", save) if f".{save}" in FORMATS else save.rpartition(".")
+    kind, _, suffix = ("", "", save) if f".{save}" in output_formats() else save.rpartition(".")
     return kind, suffix
 
 

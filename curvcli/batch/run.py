@@ -20,7 +20,7 @@ from ..loading.read import read_mesh_file
 from ..loading.recognise import format_of_name
 from ..mesh.polygons import from_file
 from ..output.atomic import Outputs
-from ..output.formats import format_of
+from ..output.registry import format_of
 from ..output.write import needs, write_into
 from ..report.build import pieces
 from ..support.memory import is_out_of_memory, trim_heap

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ..analysis.result import Result
     from ..output.appearance import Appearance
     from ..output.atomic import Outputs
-    from ..output.formats import Kind
+    from ..output.registry import Kind
     from ..report.model import Report
 
 
@@ -104,7 +104,7 @@ class Run:
         max_bytes: int | None,
         **conventions: Any,
     ) -> None:
-        from ..output.formats import format_of
+        from ..output.registry import format_of
         from ..output.tables.columns import TABLES
         from ..output.write import check_appearance, needs
 
@@ -201,7 +201,7 @@ class Run:
 
     def needs_checks(self, paths: list[str]) -> bool:
         """True if an output, the summary or the exit code depends on the checks."""
-        from ..output.formats import format_of
+        from ..output.registry import format_of
 
         said = self.as_json or bool(self.get) or self.strict or not (self.quiet or self.to_stdout)
         name = self.stream_format

@@ -45,7 +45,7 @@ def compare(
     """Return the exit code: 1 if anything differs. given: conventions that override those of a stored side."""
     from ..analysis.configuration import configured
     from ..output.atomic import Outputs
-    from ..output.formats import format_of
+    from ..output.registry import format_of
     from ..output.tables.write import parse_precision, write_table
     from ..report import accuracy as errors
     from ..report.compare import model as differences

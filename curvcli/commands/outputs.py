@@ -14,7 +14,7 @@ from ..support.words import suggestion
 from .talk import put
 
 if TYPE_CHECKING:
-    from ..output.formats import Format, Kind
+    from ..output.registry import Format, Kind
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def tables_and_reports(
 
     known: the kinds of tables. Errors: UsageError for a suffix or a kind that is not known.
     """
-    from ..output.formats import format_of
+    from ..output.registry import format_of
 
     def named(path: str, *kinds: Kind) -> Format:
         return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)

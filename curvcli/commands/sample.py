@@ -11,7 +11,7 @@ from .outputs import one_stdout
 from .talk import say
 
 if TYPE_CHECKING:
-    from ..output.formats import Kind
+    from ..output.registry import Kind
     from ..samples.model import Sample, SampleSpec
 
 _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
@@ -99,7 +99,7 @@ def _write(
     quiet: bool,
 ) -> None:
     from ..output.atomic import Outputs
-    from ..output.formats import format_of
+    from ..output.registry import format_of
 
     kinds: tuple[Kind, ...] = ("table", "mesh", "triangles")
     formats = [format_of(path, name=stream_format if path == "-" else None, kinds=kinds) for path in outputs]
@@ -113,14 +113,12 @@ def _write(
 def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool, quiet: bool) -> None:
     import numpy as np
 
-    from ..output.formats import suffixes
     from ..output.meshes.stl import write_stl_text
     from ..output.meshes.write import write_mesh
-    from ..output.pictures.framing import require_vtk
+    from ..output.registry import output_formats, suffixes
     from ..output.tables.write import write_table
 
-    if suffix in (".vtp", ".vtu"):
-        require_vtk()
+    output_formats()[suffix].require()
     if suffix == ".stl" and ascii_stl:
         write_stl_text(stream, made.points, made.faces)
     elif suffix in suffixes(("mesh", "triangles")):

@@ -40,10 +40,10 @@ def _exit_codes() -> str:
 
 def _formats() -> str:
     from ..loading.registry import input_formats
-    from ..output.formats import FORMATS as WRITTEN
+    from ..output.registry import output_formats
 
     inputs = [(f".{end}", f"{one.title}, also .{end}.gz") for one in input_formats().values() for end in one.endings]
-    outputs = [(suffix, one.description) for suffix, one in WRITTEN.items()]
+    outputs = [(suffix, one.description) for suffix, one in output_formats().items()]
     return (
         _table("Formats that are read", inputs)
         + "\n`-` reads a stream; --input-format names its format.\n\n"

@@ -114,12 +114,3 @@ def coloring(appearance: Appearance, chosen: list[str]) -> str | None:
     """The column that colours a mesh."""
     asked = (name for name in appearance.color_by if name in vertex_quantities(chosen))
     return next(asked, next((name for name in COLOR_BY if name in chosen), None))
-
-
-def panels(appearance: Appearance, chosen: list[str], suffix: str) -> tuple[str, ...]:
-    """Columns that a picture shows: those asked for, else all numbers in histograms and one column elsewhere."""
-    if appearance.color_by:
-        return appearance.color_by
-    if suffix == ".hist.png":
-        return tuple(name for name, q in vertex_quantities(chosen).items() if not q.vector and not q.labels)
-    return tuple(name for name in (*COLOR_BY, "status") if name in chosen)[:1]

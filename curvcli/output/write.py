@@ -13,20 +13,15 @@ from ..curvatures.registry import passes
 from ..errors import Notice, UsageError
 from ..support.memory import require_polars
 from .appearance import (
-    COLOR_BY,
     DEFAULT,
     Appearance,
     color_needs,
-    colored,
     colored_quantity,
-    coloring,
     colors,
-    panels,
-    vertex_quantities,
 )
 from .atomic import Outputs
-from .formats import Format, format_of
-from .pictures.framing import check_look, import_apart, parse_view, require_pictures, require_vtk
+from .pictures.framing import check_look, parse_view
+from .registry import DocumentFormat, Format, MeshFormat, format_of, output_formats
 from .tables.columns import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
 
 if TYPE_CHECKING:
@@ -63,13 +58,8 @@ def needs(formats: Iterable[Format], tables: Iterable[str], appearance: Appearan
     }
     columns: set[str] = set()
     for one in formats:
-        if one.kind == "mesh":
-            columns.update(filter(None, [coloring(appearance, chosen)]))
-        elif one.kind == "picture":
-            columns.update(panels(appearance, chosen, one.suffix))
-        elif one.suffix == ".html":
-            numbers = (name for name, quantity in vertex_quantities(chosen).items() if not quantity.labels)
-            columns.update(numbers, appearance.color_by)
+        if one.shows is not None:
+            columns.update(one.shows(appearance, chosen))
     return found.union(*(color_needs(name, chosen) for name in columns)).difference(chosen)
 
 
@@ -102,25 +92,16 @@ def write_into(
                 other.submit(_write_table, outputs, path, columns, suffix, appearance.precision, stop)
                 for path, columns, suffix in _tables(analysis, formats, tables, stream_format)
             ]
-            for path in (path for path, found in formats.items() if found.kind == "mesh"):
-                with outputs.open(path) as stream:
-                    notices += _write_mesh(stream, analysis, formats[path].suffix, appearance)
+            for path, found in formats.items():
+                if isinstance(found, MeshFormat):
+                    with outputs.open(path) as stream:
+                        notices += _write_mesh(stream, analysis, found, appearance)
             if checked is not None:
                 checked.result()
             for path, found in formats.items():
-                if found.kind in ("table", "mesh"):
-                    continue
-                with outputs.open(path) as stream:
-                    if found.kind == "picture":
-                        lines = _write_picture(stream, analysis, found.suffix, appearance)
-                        ranges += [f"{path}: {line}" for line in lines]
-                    elif found.kind == "page":
-                        _write_page(stream, analysis, found.suffix, appearance, command)
-                    else:
-                        from ..report.build import model
-                        from ..report.model import encode
-
-                        stream.write(encode(model(analysis)))
+                if isinstance(found, DocumentFormat):
+                    with outputs.open(path) as stream:
+                        ranges += [f"{path}: {line}" for line in found.write(stream, analysis, appearance, command)]
             for table in written:
                 table.result()
         except BaseException:
@@ -155,13 +136,13 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     Errors: UsageError, MissingExtraError.
     """
     parse_view(appearance.look.view)
-    suffixes = set(suffixes)
-    pictures = suffixes & {".png", ".hist.png"}
+    formats = [format for suffix, format in output_formats().items() if suffix in {*suffixes}]
+    pictures = [one for one in formats if isinstance(one, DocumentFormat) and one.kind == "picture" and one.shows]
     if pictures:
-        count = max(len(panels(appearance, chosen, suffix)) for suffix in pictures)
-        check_look(appearance.look, count, surface=".png" in pictures)
-    if suffixes & {".vtp", ".vtu"}:
-        require_vtk()
+        count = max(len(list(one.shows(appearance, chosen))) for one in pictures if one.shows)
+        check_look(appearance.look, count, surface=any(one.camera for one in pictures))
+    for one in formats:
+        one.require()
     if appearance.precision != "shortest":
         from .tables.write import parse_precision
 
@@ -172,7 +153,7 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
         colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
     for name in appearance.color_by:
         quantity = colored_quantity(name, chosen)
-        elsewhere = sorted(suffixes & {".ply", ".obj", ".glb", ".vtp", ".vtu", ".hist.png"})
+        elsewhere = sorted(one.suffix for one in formats if one.shows is not None and not one.edges)
         if quantity.on == "edge" and elsewhere:
             raise UsageError(
                 f"--color-by {name}: a column of edges, for which {elsewhere[0]} has no colours; use a picture (.png), "
@@ -180,49 +161,15 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
             )
 
 
-def _write_picture(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance) -> list[str]:
-    """Draw the surface or the histograms; return one line per column on its range."""
-    from .pictures.legend import sentence
+def _write_mesh(stream: BinaryIO, analysis: Result, format: MeshFormat, appearance: Appearance) -> list[Notice]:
+    from .meshes.write import beside_input
 
-    require_pictures(suffix != ".hist.png")
-    # References of such imports keep the frames below alive, and those here refer to the analysis.
-    import_apart("matplotlib.figure", *(() if suffix == ".hist.png" else ("pyvista.plotting",)))
-    shown = [colored(analysis, name, appearance) for name in panels(appearance, analysis.chosen, suffix)]
-    if suffix == ".hist.png":
-        from .pictures.histogram import write_histograms
-
-        write_histograms(stream, analysis, shown, appearance.look, appearance.value_range)
-    else:
-        from .pictures.picture import write_picture
-
-        write_picture(stream, analysis, shown, appearance.look, appearance.value_range)
-    return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in shown]
-
-
-def _write_page(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance, command: str | None) -> None:
-    """Write the report as a page."""
-    if suffix == ".md":
-        from ..report.build import model
-        from ..report.markdown import markdown
-
-        stream.write(markdown(model(analysis), command).encode("utf-8"))
-    else:
-        from .html.page import page
-
-        first = appearance.color_by or tuple(name for name in COLOR_BY if name in analysis.chosen)[:1]
-        stream.write(page(analysis, appearance, first, command))
-
-
-def _write_mesh(stream: BinaryIO, analysis: Result, suffix: str, appearance: Appearance) -> list[Notice]:
-    from .meshes.write import beside_input, write_mesh
-
-    if suffix in (".vtp", ".vtu"):
-        require_vtk()
+    format.require()
     surface, file = analysis.surface, analysis.surface.file
     painted = colors(analysis, appearance)
-    full = suffix in (".ply", ".vtp", ".vtu")
+    full = format.properties
     ours: dict[str, Any] = vertex_properties(analysis) if full else {}
-    if suffix == ".ply" and appearance.quality and painted is not None:
+    if format.quality and appearance.quality and painted is not None:
         ours["quality"] = ours[painted[0]]
     inputs = file.vertex_properties if file is not None and full else {}
     properties, notices = beside_input(ours, inputs, colored=painted is not None)
@@ -230,9 +177,8 @@ def _write_mesh(stream: BinaryIO, analysis: Result, suffix: str, appearance: App
     if file is not None and file.sizes is not None:
         polygons = (file.corners, file.sizes)
     faces = file.corners.reshape(-1, 3) if file is not None and file.sizes is None else surface.faces
-    lost = write_mesh(
+    lost = format.write(
         stream,
-        suffix,
         surface.points,
         faces,
         polygons=polygons,

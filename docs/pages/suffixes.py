@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from curvcli.loading.registry import InputFormat, input_formats, suffixes
-from curvcli.output.formats import FORMATS
+from curvcli.output.registry import output_formats
 
 _HOLDS = {
     "table": "rows and columns",
@@ -32,7 +32,7 @@ _ROWS: dict[str, Callable[[InputFormat], str]] = {
 
 def outputs() -> str:
     """The suffixes of outputs, with content and format."""
-    rows = [f"| `{one.suffix}` | {_HOLDS[one.kind]} | {one.description} |" for one in FORMATS.values()]
+    rows = [f"| `{one.suffix}` | {_HOLDS[one.kind]} | {one.description} |" for one in output_formats().values()]
     return "\n".join(["| suffix | holds | format |", "|---|---|---|", *rows]) + "\n"
 
 

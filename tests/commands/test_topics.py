@@ -19,7 +19,7 @@ from curvcli.commands.schemas import SCHEMAS, path_of
 from curvcli.commands.topics import TOPICS
 from curvcli.curvatures.registry import passes
 from curvcli.errors import EXIT_CODES
-from curvcli.output.formats import FORMATS
+from curvcli.output.registry import output_formats
 from tests.helpers.cli.program import CUBE, DISK, ROOT, curvcli
 
 
@@ -55,7 +55,7 @@ def test_topics_are_complete() -> None:
     assert all(f"\n{name} " in TOPICS["checks"].text() for name in identities())
     assert all(f"\n{kind.usage}" in TOPICS["checks"].text() for kind in requirements().values())
     assert all(f"\n{quantity.name} " in TOPICS["quantities"].text() for quantity in passes.quantities())
-    assert all(f"\n{suffix} " in TOPICS["formats"].text() for suffix in (*FORMATS, ".obj", ".ply", ".stl"))
+    assert all(f"\n{suffix} " in TOPICS["formats"].text() for suffix in (*output_formats(), ".obj", ".ply", ".stl"))
     assert all(f"\n{code} " in TOPICS["exit-codes"].text() for code in EXIT_CODES)
 
 

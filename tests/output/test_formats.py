@@ -8,13 +8,13 @@ import sys
 import pytest
 
 from curvcli.errors import UsageError
-from curvcli.output.formats import FORMATS, format_of, suffixes
+from curvcli.output.registry import format_of, output_formats, suffixes
 
 
-@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize("suffix", output_formats())
 def test_every_format_is_found_by_path_and_by_name(suffix: str) -> None:
-    assert format_of(f"folder.x/b.c{suffix.upper()}") is FORMATS[suffix]
-    assert format_of("-", name=suffix[1:]) is format_of("b.txt", name=suffix) is FORMATS[suffix]
+    assert format_of(f"folder.x/b.c{suffix.upper()}") is output_formats()[suffix]
+    assert format_of("-", name=suffix[1:]) is format_of("b.txt", name=suffix) is output_formats()[suffix]
 
 
 @pytest.mark.parametrize("path", ["b.xlsx", "b", "b.csv.gz", ".csv", "folder.csv/b"])
@@ -41,6 +41,6 @@ def test_a_stream_needs_a_name() -> None:
 
 
 def test_the_list_costs_no_imports() -> None:
-    program = "import sys, curvcli.output.formats, curvcli.output.atomic; print(*{'numpy', 'polars'} & {*sys.modules})"
+    program = "import sys, curvcli.output.registry, curvcli.output.atomic; print(*{'numpy', 'polars'} & {*sys.modules})"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "\n"

@@ -170,7 +170,7 @@ def test_labels_without_a_name() -> None:
 @pytest.mark.parametrize("suffix", [".csv", ".tsv", ".parquet", ".npz"])
 def test_a_pipe_gets_the_same_table(suffix: str, tmp_path: Path) -> None:
     program = (
-        "import sys, numpy as np; from curvcli.output.tables import write_table\n"
+        "import sys, numpy as np; from curvcli.output.tables.write import write_table\n"
         "columns = {'n': np.arange(100_000), 'a': np.linspace(0, 1, 100_000)}\n"
         "write_table(sys.stdout.buffer, columns, sys.argv[1])"
     )

@@ -17,7 +17,7 @@ from curvcli.api import Analysis
 from curvcli.commands.main import cli
 from curvcli.errors import MissingExtraError
 from curvcli.output.appearance import DEFAULT
-from curvcli.output.formats import FORMATS
+from curvcli.output.registry import output_formats
 from curvcli.output.tables.columns import TABLES
 from curvcli.output.write import needs
 from curvcli.report.terminal.summary import show
@@ -56,7 +56,7 @@ USES: dict[str, Callable[[Analysis, Path], object]] = {
     **{kind: lambda analysis, _, kind=kind: _table(analysis, kind) for kind in TABLES},  # type: ignore[misc]
     **{
         suffix: lambda analysis, folder, suffix=suffix: analysis.write(folder / f"x{suffix}")  # type: ignore[misc]
-        for suffix in FORMATS
+        for suffix in output_formats()
         if suffix != ".stl"
     },
 }

@@ -100,19 +100,19 @@ def _parameters() -> Iterable[str]:
 
 
 def _formats() -> list[str]:
-    from ...output.formats import suffixes
+    from ...output.registry import suffixes
 
     return [suffix[1:] for suffix in suffixes(("table", "mesh", "report", "page", "picture"))]
 
 
 def _plain_formats() -> list[str]:
-    from ...output.formats import suffixes
+    from ...output.registry import suffixes
 
     return [suffix[1:] for suffix in suffixes(("table", "report"))]
 
 
 def _sample_formats() -> list[str]:
-    from ...output.formats import suffixes
+    from ...output.registry import suffixes
 
     return [suffix[1:] for suffix in suffixes(("table", "mesh", "triangles"))]
 

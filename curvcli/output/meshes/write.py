@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 
 from ...errors import Notice
 from ...support.words import pluralize
+from ..registry import MeshFormat, output_formats
 from ..tables.write import Column
-from .obj import write_obj
 from .parts import Parts
-from .ply import write_ply
-from .stl import write_stl
 
 _POSITION = ("x", "y", "z")
 # Alpha belongs to the input's colours: a viewer blends it with any others.
@@ -26,27 +24,12 @@ def write_mesh(
 ) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) in the format of the suffix, with those parts that the format has.
 
-    PLY and VTK have everything, OBJ and glTF colours, STL the triangles alone. Returns notices of silent losses, such
-    as rounding.
+    Returns notices of what the format cannot hold. Errors: ValueError for a suffix of no mesh.
     """
-    if suffix == ".ply":
-        return write_ply(stream, points, faces, **parts)
-    if suffix == ".obj":
-        write_obj(stream, points, faces, **parts)
-    elif suffix in (".vtp", ".vtu"):
-        from .vtk import write_vtk
-
-        return write_vtk(stream, suffix, points, faces, **parts)
-    elif suffix == ".glb":
-        from .glb import write_glb
-
-        triangles = parts.get("triangles")
-        return write_glb(stream, points, faces if triangles is None else triangles, parts.get("vertex_colors"))
-    elif suffix == ".stl":
-        return write_stl(stream, points, faces)
-    else:
+    format = output_formats().get(suffix)
+    if not isinstance(format, MeshFormat):
         raise ValueError(f"{suffix}: no mesh is written with this suffix")
-    return ()
+    return format.write(stream, points, faces, **parts)
 
 
 def beside_input(

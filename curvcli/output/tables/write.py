@@ -7,6 +7,7 @@ import os
 import re
 import stat
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from threading import Event
 from typing import IO, Any, BinaryIO, TypeAlias, cast
 
@@ -21,12 +22,12 @@ from ...support.forks import require_threads, threads_lost
 from ...support.words import escape_cell
 from ..meshes.names import fitting
 from ..meshes.text import joined
+from ..registry import TableFormat, output_formats
 from .columns import ROWS_IN_A_FRAME
 
 Column: TypeAlias = NDArray[Any] | Labels
 
 SHORTEST = "shortest"
-_SEPARATORS = {".csv": ",", ".tsv": "\t"}
 # Limit on the characters of all names in a column of text, and of each row on average.
 _NAMES, _NAME = 1 << 24, 256
 # Rows that polars formats at a time: 4 times faster than its default of 1024, and small beside the table.
@@ -41,7 +42,7 @@ def write_table(
     precision: str | int = SHORTEST,
     stop: Event | None = None,
 ) -> None:
-    """Write equally long columns as `.csv`, `.tsv`, `.parquet` or `.npz` to any binary stream.
+    """Write equally long columns to any binary stream, in the format of the suffix.
 
     columns: float64 (NaN is null), integers, booleans, masked integers (masked is null), or Labels (-1 is null).
     precision: of the text formats; `shortest` reads back to the same double, N rounds to N significant digits.
@@ -50,16 +51,33 @@ def write_table(
     Words that a spreadsheet would compute get an apostrophe in text, see `in_cell`.
     Errors: UsageError for a precision outside 1..17.
     """
-    if suffix == ".npz":
-        _write_npz(stream, columns)
-        return
+    format = output_formats()[suffix]
+    assert isinstance(format, TableFormat)
+    format.write(stream, columns, precision, stop)
+
+
+def write_text(
+    stream: BinaryIO, columns: Mapping[str, Column], separator: str, precision: str | int, stop: Event | None
+) -> None:
+    """Write columns as text with this separator; see `write_table`."""
     digits = parse_precision(precision)
+    with _relayed(stream, stop) as relay:
+        _write_text(_regular(stream) or relay, columns, separator, digits, stop)
+
+
+def write_parquet(stream: BinaryIO, columns: Mapping[str, Column], precision: str | int, stop: Event | None) -> None:
+    """Write columns as Parquet; see `write_table`."""
+    parse_precision(precision)
+    with _relayed(stream, stop) as relay:
+        _write_parquet(relay, columns)
+
+
+@contextmanager
+def _relayed(stream: BinaryIO, stop: Event | None) -> Iterator[_Relay]:
+    """A stream for polars. Errors: those of the stream or of the system, not those that polars makes of them."""
     relay = _Relay(stream, stop)
     try:
-        if suffix == ".parquet":
-            _write_parquet(relay, columns)
-        else:
-            _write_text(_regular(stream) or relay, columns, _SEPARATORS[suffix], digits, stop)
+        yield relay
     except Exception as error:
         # polars rewords the error of a stream; the original error of the stream or the system says more.
         if relay.failure is not None:
@@ -234,7 +252,8 @@ def _rounded(frame: pl.DataFrame, digits: int) -> list[pl.Series]:
     return rounded
 
 
-def _write_npz(stream: BinaryIO, columns: Mapping[str, Column]) -> None:
+def write_npz(stream: BinaryIO, columns: Mapping[str, Column]) -> None:
+    """Write columns as arrays of numpy; see `write_table`."""
     arrays: dict[str, NDArray[Any]] = {}
     for name, column in columns.items():
         if isinstance(column, Labels):

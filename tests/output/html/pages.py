@@ -10,8 +10,8 @@ import numpy as np
 import curvcli
 from curvcli.api import Analysis
 from curvcli.output.appearance import Appearance
-from curvcli.output.formats import FORMATS
 from curvcli.output.html.page import page
+from curvcli.output.registry import output_formats
 from curvcli.output.write import needs
 from tests.helpers.meshes import Mesh
 from tests.output.html.parsed import Page
@@ -29,7 +29,7 @@ def written(mesh: Mesh, path: Path) -> Path:
 
 def page_of(analysis: Analysis, command: str | None = "curvcli analyze x.obj", **look: Any) -> bytes:
     appearance = Appearance(**look)
-    analysis.include(needs([FORMATS[".html"]], (), appearance, analysis.chosen))
+    analysis.include(needs([output_formats()[".html"]], (), appearance, analysis.chosen))
     return page(analysis, appearance, ("K_density",), command)
 
 

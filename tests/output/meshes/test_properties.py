@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from curvcli.output.formats import suffixes
 from curvcli.output.meshes.write import beside_input, write_mesh
+from curvcli.output.registry import suffixes
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.5]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])

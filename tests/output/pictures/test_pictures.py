@@ -12,12 +12,12 @@ import pytest
 import curvcli
 from curvcli.api import Analysis
 from curvcli.output.appearance import Appearance
-from curvcli.output.formats import format_of
 from curvcli.output.pictures.camera import screen
 from curvcli.output.pictures.colors import colorize
 from curvcli.output.pictures.framing import Look
 from curvcli.output.pictures.render import Lines, render
 from curvcli.output.pictures.sheet import Sheet
+from curvcli.output.registry import format_of
 from curvcli.output.write import needs, write_into
 from tests.helpers.images import Pixels, collisions, decoded, difference_hash, near, opengl
 from tests.helpers.meshes import Mesh, of_sample

@@ -1,0 +1,1 @@
+"""Formats that are written: each module here declares one and registers it."""

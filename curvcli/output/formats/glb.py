@@ -1,0 +1,34 @@
+"""Binary glTF with colours of vertices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from ..registry import MeshFormat, register
+
+if TYPE_CHECKING:
+    from ...errors import Notice
+    from ..appearance import Appearance
+
+
+def shows(appearance: Appearance, chosen: list[str]) -> list[str]:
+    """The column of the colours, if there is one."""
+    from ..appearance import coloring
+
+    name = coloring(appearance, chosen)
+    return [] if name is None else [name]
+
+
+def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+    """Write the triangles and their colours."""
+    from ..meshes.glb import write_glb
+
+    triangles = parts.get("triangles")
+    return write_glb(stream, points, faces if triangles is None else triangles, parts.get("vertex_colors"))
+
+
+register(
+    MeshFormat(
+        suffix=".glb", description="mesh with vertex colours, binary glTF, float32", place=5, write=write, shows=shows
+    )
+)

@@ -1,0 +1,47 @@
+"""Histograms of columns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, BinaryIO
+
+from ..registry import DocumentFormat, register
+
+if TYPE_CHECKING:
+    from ...analysis.result import Result
+    from ..appearance import Appearance
+
+
+def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
+    """The columns asked for, or all numbers of vertices."""
+    from ..appearance import vertex_quantities
+
+    numbers = (name for name, q in vertex_quantities(chosen).items() if not q.vector and not q.labels)
+    return appearance.color_by or tuple(numbers)
+
+
+def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
+    """Draw the histograms; a line for each column, with its range."""
+    from ..pictures.framing import import_apart, require_pictures
+
+    require_pictures(False)
+    # On another stack: frames that such imports keep refer to those below, and these to the analysis.
+    import_apart("matplotlib.figure")
+    from ..appearance import colored
+    from ..pictures.histogram import write_histograms
+    from ..pictures.legend import sentence
+
+    columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
+    write_histograms(stream, analysis, columns, appearance.look, appearance.value_range)
+    return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in columns]
+
+
+register(
+    DocumentFormat(
+        suffix=".hist.png",
+        kind="picture",
+        description="histogram and area-weighted distribution of columns",
+        place=2,
+        write=write,
+        shows=shows,
+    )
+)

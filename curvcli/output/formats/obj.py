@@ -1,0 +1,30 @@
+"""Wavefront OBJ with colours of vertices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from ..registry import MeshFormat, register
+
+if TYPE_CHECKING:
+    from ...errors import Notice
+    from ..appearance import Appearance
+
+
+def shows(appearance: Appearance, chosen: list[str]) -> list[str]:
+    """The column of the colours, if there is one."""
+    from ..appearance import coloring
+
+    name = coloring(appearance, chosen)
+    return [] if name is None else [name]
+
+
+def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+    """Write the mesh, its colours and comments."""
+    from ..meshes.obj import write_obj
+
+    write_obj(stream, points, faces, **parts)
+    return ()
+
+
+register(MeshFormat(suffix=".obj", description="mesh with vertex colours, text", place=2, write=write, shows=shows))
