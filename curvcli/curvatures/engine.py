@@ -1,8 +1,7 @@
-"""Engine: schedule of passes, evaluation in order, and release of intermediate columns."""
+"""Engine: schedule of passes, and evaluation in order."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import replace
 from graphlib import TopologicalSorter
@@ -85,7 +84,7 @@ def evaluate(
     settings: Settings = DEFAULTS,
     known: Mapping[str, Array] | None = None,
 ) -> dict[str, Array]:
-    """Compute the named quantities and their needs; every pass runs once, intermediates are released.
+    """Compute the named quantities; every pass on the way to them runs once, and only the named columns are kept.
 
     area: the cell area of `K_density` and its dependents. settings: scales, normals and noise of estimators; names
     that depend on the scale may include it, `NAME@SCALE`. known: columns computed before.
@@ -121,12 +120,9 @@ def _shared(passes: Provider, names: Iterable[str], area: str) -> set[str]:
 def _evaluate(
     passes: Provider, surface: Surface, names: Iterable[str], area: str, settings: Settings, known: Mapping[str, Array]
 ) -> dict[str, Array]:
-    """The known columns and the named ones, at one scale."""
+    """The known columns, the named ones and those on the way to them, at one scale."""
     have: dict[str, Array] = dict(known)
-    keep = {*names, *have}
-
-    order = schedule(passes, [name for name in keep if name not in have], area, set(have))
-    uses = Counter(need for one in order for need in needs(one, area))
+    order = schedule(passes, [name for name in names if name not in have], area, set(have))
     for _, group in groupby(order, key=lambda one: one.pointwise or one.name):
         run = list(group)
         if run[0].pointwise:
@@ -136,11 +132,6 @@ def _evaluate(
         for array in found.values():
             array.setflags(write=False)
         have |= found
-        for one in run:
-            for need in [*needs(one, area), *(quantity.name for quantity in one.provides)]:
-                uses[need] -= need in needs(one, area)
-                if uses[need] <= 0 and need not in keep:
-                    have.pop(need, None)
     return have
 
 
