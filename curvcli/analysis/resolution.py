@@ -16,6 +16,7 @@ from ..mesh.precision import is_single, last_place
 from ..mesh.scale import Scale
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
+from ..support.words import format_rounded
 
 _SCALED = ("willmore_ring", "willmore_corrected", "willmore_fit")
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
@@ -108,7 +109,9 @@ def of_stars(
     if noise is None and asked:
         yield from _apart(columns, {key: scaled[key] for key in at_scale}, shown | at_scale)
     elif noise is not None:
-        values = ", ".join(f"{key} = {value:.4g}" for key, value in (shown | at_scale).items() if value is not None)
+        values = ", ".join(
+            f"{key} = {format_rounded(value, 4)}" for key, value in (shown | at_scale).items() if value is not None
+        )
         yield Notice.of(
             "rough_energy",
             [],
@@ -142,7 +145,7 @@ def _apart(columns: Mapping[str, Any], scaled: Mapping[str, str], totals: Mappin
         if not one <= 2 * other <= 4 * one:
             found.append(key)
     if found:
-        values = ", ".join(f"{key} = {value:.4g}" for key, value in totals.items())
+        values = ", ".join(f"{key} = {format_rounded(value, 4)}" for key, value in totals.items())
         yield Notice.of(
             "energy_at_scale",
             [],

@@ -8,6 +8,7 @@ from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
 from ..support.arrays import Column, Flags, VectorColumn
+from ..support.words import format_rounded
 from .base import Outcome, check, exclude_null, rounding
 
 
@@ -43,7 +44,8 @@ def dirichlet(
     worst = groups.vertices.max(strain)
 
     def detail(g: int) -> str:
-        return f"E(id) against the area; ∇_p E(id) differs from ∇_p area by at most {worst[g]:.2g} of what is allowed"
+        share = format_rounded(worst[g], 2)
+        return f"E(id) against the area; ∇_p E(id) differs from ∇_p area by at most {share} of what is allowed"
 
     # Both must hold: the residual includes the gradient's residual, scaled by the ratio of the bounds.
     residual = np.abs(value - expected)

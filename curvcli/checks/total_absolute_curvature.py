@@ -9,6 +9,7 @@ from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
 from ..support.arrays import Column
+from ..support.words import format_rounded
 from .base import Outcome, check, exclude_null
 
 
@@ -31,7 +32,7 @@ def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K
     def detail(group: int) -> str:
         if surplus[group] <= tolerance[group]:
             return "tight: no more curvature than the topology demands"
-        return f"{surplus[group]:.6g} more than the topology demands"
+        return f"{format_rounded(surplus[group])} more than the topology demands"
 
     outcome = Outcome(value, bound, tolerance, detail=detail, residual=np.maximum(-surplus, 0.0))
     outcome.exclude(~counts.closed, "the surface is not closed")

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..support.words import counted, escape_text
+from ..support.words import counted, escape_text, format_rounded
 
 if TYPE_CHECKING:
     from ..checks.base import Check
@@ -90,7 +90,7 @@ def number(value: Any, digits: int = 6) -> str:
         return "(" + ", ".join(number(part, digits) for part in value) + ")"
     if isinstance(value, int):
         return f"{value:,}"
-    return f"{value + 0.0:.{digits}g}" if isinstance(value, float) else escape_text(str(value))
+    return format_rounded(value, digits) if isinstance(value, float) else escape_text(str(value))
 
 
 def shell_quoted(arguments: Iterable[str]) -> str:

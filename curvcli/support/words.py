@@ -129,6 +129,11 @@ def suggestion(name: str, known: Iterable[str], listing: str = "") -> str:
     return f"; {listing}" if listing else ""
 
 
+def format_rounded(value: float | None, digits: int = 6, undefined: str = "undefined") -> str:
+    """A number for people, rounded to significant digits; zero has no minus sign."""
+    return undefined if value is None or value != value else f"{value + 0.0:.{digits}g}"
+
+
 def format_number(value: float) -> str:
     """The shortest decimal text that reads back as the same number, without a trailing `.0`."""
     text = f"{value:.15g}"

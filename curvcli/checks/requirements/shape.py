@@ -9,6 +9,7 @@ import numpy as np
 from ...mesh.surface import Surface
 from ...mesh.triangles import EPSILON, dot
 from ...support.arrays import Column, Flags, VectorColumn
+from ...support.words import format_rounded
 from ..special import constant_mean_curvature, steiner
 from .base import requirement
 from .topology import closed, connected, euler, manifold, oriented
@@ -29,7 +30,8 @@ def convex(surface: Surface, face_area: Column, H_theta: Column, K: Column, K_mi
         return ""
     bound = 16 * EPSILON * (surface.n_faces + int(np.count_nonzero(surface.referenced)))
     worst = int(np.argmax(np.where(surface.referenced, K_minus, 0)))
-    return f"ΣK⁻ = {float(surface.whole.vertices.sum(K_minus)[0]):.6g} (allowed {bound:.2g}), most at vertex {worst}"
+    total = float(surface.whole.vertices.sum(K_minus)[0])
+    return f"ΣK⁻ = {format_rounded(total)} (allowed {format_rounded(bound, 2)}), most at vertex {worst}"
 
 
 @requirement(
@@ -101,7 +103,11 @@ def _largest_density(vectors: VectorColumn, area: Column, extent: Column, where:
 def _judged(name: str, value: float, vertex: int, tolerance: float) -> str:
     if math.isnan(value):
         return f"{name} is undefined: no vertex inside has a value"
-    return "" if value <= tolerance else f"{name} = {value:.6g} (allowed {tolerance:g}), at vertex {vertex}"
+    return (
+        ""
+        if value <= tolerance
+        else f"{name} = {format_rounded(value)} (allowed {format_rounded(tolerance)}), at vertex {vertex}"
+    )
 
 
 def _untested(vectors: VectorColumn, where: Flags, what: str) -> str:

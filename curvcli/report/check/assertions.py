@@ -18,7 +18,7 @@ from ...curvatures.quantity import AT_SCALE, Quantity
 from ...curvatures.registry import passes
 from ...errors import UsageError
 from ...mesh.scale import Scale, Settings
-from ...support.words import format_number, suggestion
+from ...support.words import format_number, format_rounded, suggestion
 from ..quantities import public
 from ..statistics import statistics
 
@@ -65,7 +65,7 @@ class Assertion:
             none = f"no {self.quantity.on} has a value"
             return False, None, f"{call} is undefined: {some if known.any() else none}"
         held = OPERATORS[self.comparison](value, self.bound)
-        return held, value, f"{call} = {value:.6g}{self._place(analysis, values, used)}"
+        return held, value, f"{call} = {format_rounded(value)}{self._place(analysis, values, used)}"
 
     def _values(self, analysis: Result) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
         """Values of the column, weights for area_mean, and the elements that count."""

@@ -17,7 +17,7 @@ from ...curvatures.engine import evaluate
 from ...curvatures.registry import passes
 from ...errors import FAILED_CHECK, OK, UsageError
 from ...mesh.scale import Scale
-from ...support.words import escape_text, suggestion
+from ...support.words import escape_text, format_rounded, suggestion
 from ..model import CONVENTIONS
 from . import assertions
 from .assertions import Assertion
@@ -129,9 +129,7 @@ def gap(check: Check) -> str:
         residual = sides[0] - sides[1]
     elif name != "residual":
         name = f"|{name}|"
-    size = "undefined" if residual is None else f"{residual:.5g}"
-    bound = "undefined" if check.tolerance is None else f"{check.tolerance:.1g}"
-    return f"{name} = {size} (allowed {bound})"
+    return f"{name} = {format_rounded(residual, 5)} (allowed {format_rounded(check.tolerance, 1)})"
 
 
 def _statement(name: str) -> str:

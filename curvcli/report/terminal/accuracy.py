@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
+from ...support.words import format_rounded
 from .console import escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table, roomy_table
 
@@ -44,22 +45,18 @@ def _errors(found: Accuracy) -> Iterator[Table]:
         add_numbers(table, *numbers)
         for name, row in found.errors.items():
             late = found.rtol is not None and row.relative_l2 is not None and row.relative_l2 > found.rtol
-            relative = _number(row.relative_l2)
+            relative = format_rounded(row.relative_l2, 3, "")
             cells = {
                 "column": name,
                 "against": row.exact,
                 "relative L2": f"[bold red]{relative}[/bold red]" if late else relative,
-                "Linf": _number(row.linf),
+                "Linf": format_rounded(row.linf, 3, ""),
                 "at vertex": "" if row.vertex is None else str(row.vertex),
-                "RMS": _number(row.rms),
-                "bias": _number(row.bias),
-                "relative": _number(row.relative_bias),
+                "RMS": format_rounded(row.rms, 3, ""),
+                "bias": format_rounded(row.bias, 3, ""),
+                "relative": format_rounded(row.relative_bias, 3, ""),
                 "null": f"{row.nulls:,}" if row.nulls else "",
                 "compared": f"{row.compared:,}",
             }
             table.add_row(*(cells[key] for key in (*names, *numbers)))
         yield table
-
-
-def _number(value: float | None) -> str:
-    return "" if value is None else f"{value:.3g}"

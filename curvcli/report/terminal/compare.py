@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
+from ...support.words import format_rounded
 from ..compare.model import as_text
 from .console import escape, report_console, show_configuration
 from .fitting import fitting, plain_table, roomy_table
@@ -51,7 +52,11 @@ def _moved(found: Comparison, verbose: int) -> Iterator[Table]:
         narrow.add_row(f"{name}\n  A {a}\n  B {b}", moved, allowed)
 
     for d in found.differences[: None if verbose else _SHOWN]:
-        cells = (_ABSENT[d.status], "") if d.status in _ABSENT else (_number(d.moved, "changed"), _number(d.allowed))
+        cells = (
+            (_ABSENT[d.status], "")
+            if d.status in _ABSENT
+            else (format_rounded(d.moved, 2, "changed"), format_rounded(d.allowed, 2, ""))
+        )
         add(escape(d.key), escape(as_text(d.a)), escape(as_text(d.b)), *cells)
     hidden = len(found.differences) - _SHOWN
     if hidden > 0 and not verbose:
@@ -59,10 +64,12 @@ def _moved(found: Comparison, verbose: int) -> Iterator[Table]:
             table.add_row(f"[dim]… {hidden:,} more: -v[/dim]")
     for c in found.columns:
         where = f"vertices.{c.name}: {c.differing:,} of {c.rows:,}, most at vertex {c.vertex}"
-        add(escape(where), escape(as_text(c.a)), escape(as_text(c.b)), _number(c.moved, "changed"), _number(c.allowed))
+        add(
+            escape(where),
+            escape(as_text(c.a)),
+            escape(as_text(c.b)),
+            format_rounded(c.moved, 2, "changed"),
+            format_rounded(c.allowed, 2, ""),
+        )
     yield wide
     yield narrow
-
-
-def _number(value: float | None, otherwise: str = "") -> str:
-    return otherwise if value is None else f"{value:.2g}"
