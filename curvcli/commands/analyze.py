@@ -13,6 +13,7 @@ import click
 
 from ..errors import FAILED_CHECK, OK, OutputError, UsageError, worst
 from ..loading.limits import parse_weld
+from ..output.registry import listed
 from . import options
 from .bounds import bounded
 from .configured import configuration
@@ -37,8 +38,8 @@ if TYPE_CHECKING:
     "outputs",
     metavar="PATH",
     multiple=True,
-    help="Write .csv .tsv .parquet .npz (table), .ply .obj .vtp .vtu .glb (coloured mesh), .png (picture), "
-    ".hist.png (histograms), .json .md (report) or .html (report with an interactive 3D view); repeatable. "
+    help=f"Write {listed('table')} (table), {listed('mesh')} (coloured mesh), {listed('picture')} (picture), "
+    f"{listed('report')} (report), or {listed('page')} (report to be read); repeatable. "
     "With several meshes, {stem} stands for each one's name. `-` is stdout.",
 )
 @click.option(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..output.registry import listed
 from . import options
 from .outputs import one_stdout
 from .talk import say
@@ -25,8 +26,8 @@ _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
     "outputs",
     metavar="PATH",
     multiple=True,
-    help="Write .obj .ply .stl .vtp .vtu .glb (the mesh; .ply .vtp .vtu with exact curvatures) or .csv .tsv .parquet "
-    ".npz (their table); repeatable. `-` is stdout.",
+    help=f"Write {listed('mesh', 'triangles')} (the mesh; .ply .vtp .vtu with exact curvatures) or {listed('table')} "
+    "(their table); repeatable. `-` is stdout.",
 )
 @click.option("--size", type=click.IntRange(4), help="Approximate number of vertices.")
 @click.option("--scale", type=float, default=1.0, show_default=True, help="Multiply all lengths.")
