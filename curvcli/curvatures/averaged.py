@@ -126,12 +126,12 @@ def ring_principal_curvatures(
     tensor, _ = star_tensors(surface, theta)
     used = surface.interior & np.isfinite(tensor[0])
     total = _sums(surface, scale, used, [star_area, *star_vector, *tensor])
-    found = np.full((2, surface.n_vertices), np.nan)
+    result = np.full((2, surface.n_vertices), np.nan)
     area, vector = total[0], total[1:4]
     length = np.sqrt(dot(vector, vector))
     known = pointed(surface.interior, length, area) & (area > 0) & ~surface.without_orientation
     for block in slices(surface.n_vertices):
         with np.errstate(divide="ignore", invalid="ignore"):
             middle, half, _, _ = tangential(0.5 * total[4:, block] / area[block], vector[:, block] / length[block])
-        found[:, block] = np.where(known[block], [middle + half, middle - half], np.nan)
-    return found[0], found[1]
+        result[:, block] = np.where(known[block], [middle + half, middle - half], np.nan)
+    return result[0], result[1]

@@ -58,15 +58,15 @@ def corrected_measures(
     defects[np.isnan(mean[:, _MU_0])] = np.inf  # a neighbourhood left empty
     again, defects = _averaged(surface, scale, corners.gather(measures), defects)
     del measures
-    found = np.empty((7, surface.n_vertices))
+    result = np.empty((7, surface.n_vertices))
     for block in slices(surface.n_vertices):
         known = np.isfinite(fitted_normal[:, block]).all(axis=0)
         sharp = 2 * mean[block, _MU_2:] - again[block, _MU_2:]
-        found[:, block] = np.where(known, sharp.T, np.nan)
+        result[:, block] = np.where(known, sharp.T, np.nan)
         if normals == "mesh":
             most = defects[block] / mean[block, _MU_0]
-            found[0, block] = np.clip(found[0, block], -most, most) + 0.0  # no -0
-    return found[0], found[1:], mean[:, _MU_0].copy()
+            result[0, block] = np.clip(result[0, block], -most, most) + 0.0  # no -0
+    return result[0], result[1:], mean[:, _MU_0].copy()
 
 
 def _sizes_of_defects(surface: Surface, K: Column) -> Column:
@@ -181,7 +181,7 @@ def corrected_directions(
     surface: Surface, corrected_tensor: Column, fitted_normal: VectorColumn, corrected_area: Column
 ) -> tuple[VectorColumn, ...]:
     """Eigenvectors of the corrected tensor within the tangent planes: lines, their largest component positive."""
-    found = np.empty((2, 3, surface.n_vertices))
+    result = np.empty((2, 3, surface.n_vertices))
 
     def turn(block: slice) -> None:
         tensor = corrected_tensor[:, block]
@@ -189,10 +189,10 @@ def corrected_directions(
         # Rounding of unit normals acts like a curvature of ε per size of a face.
         rounding = np.abs(tensor).max(axis=0) + 1 / np.sqrt(corrected_area[block])
         distinct = (gap > _UMBILIC * rounding) & ~surface.without_orientation[block]
-        found[:, :, block] = np.where(distinct, [line(vector) for vector in pair], np.nan)
+        result[:, :, block] = np.where(distinct, [line(vector) for vector in pair], np.nan)
 
     for_each(slices(surface.n_vertices), turn)
-    return found[0], found[1]
+    return result[0], result[1]
 
 
 class _Corners:
@@ -212,10 +212,10 @@ class _Corners:
 
     def gather(self, measures: Floats) -> Floats:
         """(V, 9) sums over the faces at each vertex of measures (F, 9), the tensor as the star is oriented."""
-        found: Floats = self._plain @ measures
+        result: Floats = self._plain @ measures
         if self._odd is not self._plain:
-            found[:, _TENSOR] = self._odd @ np.ascontiguousarray(measures[:, _TENSOR])
-        return found
+            result[:, _TENSOR] = self._odd @ np.ascontiguousarray(measures[:, _TENSOR])
+        return result
 
 
 def _measures(surface: Surface, normal: VectorColumn) -> Floats:
@@ -224,7 +224,7 @@ def _measures(surface: Surface, normal: VectorColumn) -> Floats:
     A face with a null normal at a corner adds nothing. With d the edges and e the differences of the normals from
     corner 0, ∫∇u = ½ (e₁ ⊗ (d₂ × ū) + e₂ ⊗ (ū × d₁)) for u linear on the face; its trace is μ₁.
     """
-    found = np.empty((surface.n_faces, 9))
+    result = np.empty((surface.n_faces, 9))
     sign = surface.corner_sign
 
     def measure(block: slice) -> None:
@@ -245,10 +245,10 @@ def _measures(surface: Surface, normal: VectorColumn) -> Floats:
         unknown = np.isnan(rows[_MU_0])
         if unknown.any():
             rows = [np.where(unknown, 0.0, row) for row in rows]
-        found[block] = np.stack(rows, axis=1) / 6
+        result[block] = np.stack(rows, axis=1) / 6
 
     for_each(slices(surface.n_faces), measure)
-    return found
+    return result
 
 
 def _divided(total: Floats) -> Floats:

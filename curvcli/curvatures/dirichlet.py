@@ -36,11 +36,11 @@ def dirichlet_identity(surface: Surface, degenerate: Flags) -> tuple[Column | Ve
 
     Null on degenerate faces and at their corners: cotangents have no meaning there.
     """
-    found = sweep(surface, surface.xyz)
+    result = sweep(surface, surface.xyz)
     null = degenerate | ~surface.referenced
     return (
-        found.energy,
-        np.asarray(null_where(null, found.gradient)),
-        found.energy_terms,
-        null_where(null, found.gradient_terms),
+        result.energy,
+        np.asarray(null_where(null, result.gradient)),
+        result.energy_terms,
+        null_where(null, result.gradient_terms),
     )

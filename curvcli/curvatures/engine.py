@@ -137,9 +137,9 @@ def _evaluate(
 
 def _named(one: Step, given: Iterable[Any]) -> dict[str, Array]:
     """The results of a pass, by name."""
-    found = one.compute(*given)
+    result = one.compute(*given)
     names = [quantity.name for quantity in one.provides]
-    return dict(zip(names, found if len(names) > 1 else (found,), strict=True))
+    return dict(zip(names, result if len(names) > 1 else (result,), strict=True))
 
 
 def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array], area: str) -> dict[str, Array]:

@@ -162,7 +162,7 @@ class Registry(Mapping[str, Pass]):
 
     def column(self, name: str, on: Element = "vertex") -> Quantity | None:
         """The quantity of a column of a table, also at a scale (`K_fit_2e`); None for other columns."""
-        found: Quantity | None = None
+        result: Quantity | None = None
         for quantity in self._declared():
             if quantity.on == on and quantity.public:
                 if name in quantity.columns:
@@ -173,8 +173,8 @@ class Registry(Mapping[str, Pass]):
                     and _SCALE.fullmatch(scale[len(start) :])
                     and self.depends_on_scale(quantity.name)
                 ):
-                    found = quantity
-        return found
+                    result = quantity
+        return result
 
     def _declared(self) -> Iterator[Quantity]:
         return (quantity for registered in self._passes.values() for quantity in registered.provides)
@@ -182,8 +182,8 @@ class Registry(Mapping[str, Pass]):
 
 def _passes_of(home: str) -> Registry:
     """The registry of a module, filled."""
-    found: Registry = import_module(home).loaded()
-    return found
+    result: Registry = import_module(home).loaded()
+    return result
 
 
 passes = Registry("curvcli.curvatures.catalogue")

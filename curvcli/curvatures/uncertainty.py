@@ -76,9 +76,9 @@ def angle_defect_uncertainty(surface: Surface, noise: float | None, K: Column) -
         sigma = deviation(surface, noise)
         first = sigma * np.sqrt(slope + dot(own, own))
         second = sigma * (sigma * np.sqrt(0.5 * (bend + curving * curving)))
-        found = np.hypot(first, second)
-    found = null_where(np.isnan(K) | ~np.isfinite(found), found)
-    return found, np.abs(K) < found
+        result = np.hypot(first, second)
+    result = null_where(np.isnan(K) | ~np.isfinite(result), result)
+    return result, np.abs(K) < result
 
 
 @curvature_pass(
@@ -118,9 +118,9 @@ def h_sigma(
                 np.add.at(total, at, dot(pull, pull))
                 for row, part in zip(own, pull, strict=True):
                     np.add.at(row, at, part)
-        found = sigma * np.sqrt(total + dot(own, own))
-    found = null_where(np.isnan(h) | ~np.isfinite(found), found)
-    return found, h < found
+        result = sigma * np.sqrt(total + dot(own, own))
+    result = null_where(np.isnan(h) | ~np.isfinite(result), result)
+    return result, h < result
 
 
 @dataclass(frozen=True)

@@ -201,15 +201,15 @@ class _Fit:
 
     def _weighted(self, count: int, columns: Callable[[slice], list[Floats]]) -> Floats:
         """(V, count) columns, from a function of blocks of vertices, times the weights."""
-        found = np.empty((self._surface.n_vertices, count))
+        result = np.empty((self._surface.n_vertices, count))
 
         def fill(block: slice) -> None:
-            np.stack(columns(block), axis=1, out=found[block])
+            np.stack(columns(block), axis=1, out=result[block])
             if self._weight is not None:
-                found[block] *= self._weight[block, None]
+                result[block] *= self._weight[block, None]
 
-        for_each(slices(len(found)), fill)
-        return found
+        for_each(slices(len(result)), fill)
+        return result
 
     def _over_pairs(
         self, at: NDArray[np.intp], rows: Pattern, field: VectorColumn, normal: VectorColumn, square: Floats | None
@@ -219,7 +219,7 @@ class _Fit:
         Without an orientation m_q gets the sign of the product of the normals at p and q.
         """
         surface, count = self._surface, np.diff(rows.indptr)
-        found = np.zeros((3, len(count)))
+        result = np.zeros((3, len(count)))
         if square is not None:
             square[:] = 0.0
         for part in pair_blocks(rows.indptr):
@@ -238,12 +238,12 @@ class _Fit:
             filled = np.flatnonzero(count[part])
             start = (rows.indptr[part.start : part.stop] - first)[filled]
             for k in range(3):
-                found[k, filled + part.start] = np.add.reduceat(weighted[k] * height, start)
+                result[k, filled + part.start] = np.add.reduceat(weighted[k] * height, start)
                 if square is None:
                     continue
                 for j in range(k, 3):
                     square[WHERE[k, j], filled + part.start] = np.add.reduceat(weighted[k] * chord[j], start)
-        return found
+        return result
 
 
 def pair_blocks(indptr: NDArray[np.integer], size: int = _PAIRS) -> Iterator[slice]:

@@ -127,8 +127,8 @@ class Curve:
     @property
     def turning_number(self) -> int | None:
         """Turning number of a plane closed curve, signed_total / 2π; None for others."""
-        found = or_none(float(self._plane.turning_number[0]))
-        return None if found is None else int(found)
+        result = or_none(float(self._plane.turning_number[0]))
+        return None if result is None else int(result)
 
     @cached_property
     def _frenet(self) -> Frenet:

@@ -75,6 +75,6 @@ def _bend(curves: Curves) -> Floats:
 
 def _quotient(value: Floats, length: Floats) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
-        found = value / length
-    tiny = (np.abs(found) < np.finfo(np.float64).tiny) & (value != 0)
-    return np.where(np.isfinite(found) & ~tiny, found, np.nan)
+        result = value / length
+    tiny = (np.abs(result) < np.finfo(np.float64).tiny) & (value != 0)
+    return np.where(np.isfinite(result) & ~tiny, result, np.nan)

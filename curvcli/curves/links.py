@@ -126,16 +126,16 @@ def _touching(curves: Curves, a: Rows, b: Rows) -> Mask:
     """(k,) mask of the pairs of curves with a vertex at the same position."""
     order = np.lexsort(curves.xyz + 0.0)
     here, label = curves.xyz[:, order], curves.label[order]
-    found: set[tuple[int, int]] = set()
+    result: set[tuple[int, int]] = set()
     for step in range(1, curves.size):
         same = (here[:, step:] == here[:, :-step]).all(axis=0)
         if not same.any():
             break
         at = np.flatnonzero(same)
-        found.update(zip(label[at].tolist(), label[at + step].tolist(), strict=True))
-    if not found:
+        result.update(zip(label[at].tolist(), label[at + step].tolist(), strict=True))
+    if not result:
         return np.zeros(len(a), bool)
-    return np.array([(i, j) in found or (j, i) in found for i, j in zip(a.tolist(), b.tolist(), strict=True)])
+    return np.array([(i, j) in result or (j, i) in result for i, j in zip(a.tolist(), b.tolist(), strict=True)])
 
 
 def _corners(curves: Curves, curve: int) -> Floats:

@@ -46,13 +46,13 @@ class CurveMeasures:
 
     def links_table(self) -> dict[str, Any]:
         """One row per pair of closed curves: their numbers, linking number and the bound of its error in turns."""
-        found = self.links
-        number = np.rint(np.where(found.known, found.number, 0.0)).astype(np.int32)
+        result = self.links
+        number = np.rint(np.where(result.known, result.number, 0.0)).astype(np.int32)
         return {
-            "a": found.a.astype(np.int32),
-            "b": found.b.astype(np.int32),
-            "linking": np.ma.masked_array(number, ~found.known),
-            "linking_error": found.error,
+            "a": result.a.astype(np.int32),
+            "b": result.b.astype(np.int32),
+            "linking": np.ma.masked_array(number, ~result.known),
+            "linking_error": result.error,
         }
 
     @cached_property

@@ -17,8 +17,8 @@ Rows = NDArray[np.int64]
 def scaled(values: Floats, power: Rows | NDArray[np.int32]) -> Floats:
     """Values times 2 to a power; NaN on overflow."""
     with np.errstate(over="ignore", under="ignore"):
-        found = np.ldexp(values, power)
-    return np.where(np.isfinite(found) & ((found != 0) | (values == 0)), found, np.nan)
+        result = np.ldexp(values, power)
+    return np.where(np.isfinite(result) & ((result != 0) | (values == 0)), result, np.nan)
 
 
 class Curves:

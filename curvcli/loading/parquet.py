@@ -68,14 +68,14 @@ class _Compact:
         self._depth += 1
         if self._depth > _DEEPEST or self.at < 0:
             raise ValueError("too deep")
-        found: dict[int, Any] = {}
+        result: dict[int, Any] = {}
         number = 0
         while head := self._byte():
             number = number + (head >> 4) if head >> 4 else self._integer()
             kind = head & 15
-            found[number] = kind == _TRUE if kind in (_TRUE, _FALSE) else self._value(kind)
+            result[number] = kind == _TRUE if kind in (_TRUE, _FALSE) else self._value(kind)
         self._depth -= 1
-        return found
+        return result
 
     def _byte(self) -> int:
         self.at += 1

@@ -112,7 +112,7 @@ def with_repeated_corner(triangles: Index) -> NDArray[np.intp]:
 
     def find(block: slice) -> NDArray[np.intp]:
         a, b, c = triangles[block].T
-        found: NDArray[np.intp] = np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
-        return found
+        result: NDArray[np.intp] = np.flatnonzero((a == b) | (b == c) | (c == a)) + block.start
+        return result
 
     return np.concatenate(list(map_pieces(slices(len(triangles), LONG), find)))

@@ -62,8 +62,8 @@ class Segments:
 
     def any(self, mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """(G,) flag of each group: the mask holds for at least one member."""
-        found: NDArray[np.bool_] = self.count_true(mask) > 0
-        return found
+        result: NDArray[np.bool_] = self.count_true(mask) > 0
+        return result
 
     def max(self, values: Floats) -> Floats:
         """Largest value of each group; NaN for a group without one."""

@@ -76,9 +76,9 @@ def parse_scales(
 
     Errors: UsageError.
     """
-    found = [rings(_count(text)) for text in _entries(ring_counts)]
-    found += [parse_radius(text) for text in _entries(radii)]
-    return tuple(dict.fromkeys(found))
+    result = [rings(_count(text)) for text in _entries(ring_counts)]
+    result += [parse_radius(text) for text in _entries(radii)]
+    return tuple(dict.fromkeys(result))
 
 
 def describe_scales(names: str) -> str:

@@ -141,14 +141,14 @@ def _tried(surface: Surface, tolerance: str, among: NDArray[np.bool_] | None) ->
         lowest = weld_within(surface.xyz_given, float(tolerance), among)
     except InputError:
         return None
-    found = effect(surface, lowest)
+    result = effect(surface, lowest)
     # Welding a seam drops no faces; it drops all faces of a thin strip, and a few slivers.
-    if found.dropped > (0 if float(tolerance) > _FINE else found.kept / 4):
+    if result.dropped > (0 if float(tolerance) > _FINE else result.kept / 4):
         return None
     number = np.bincount(lowest[surface.boundary], minlength=surface.n_vertices)
     vertices = np.flatnonzero(surface.boundary & (number[lowest] > 1))
     # Welding a seam closes about one edge per vertex; vertices that meet by chance close few.
-    return Seam(vertices, tolerance, found) if 4 * found.closed >= len(vertices) else None
+    return Seam(vertices, tolerance, result) if 4 * result.closed >= len(vertices) else None
 
 
 def _tolerances(surface: Surface) -> list[str]:

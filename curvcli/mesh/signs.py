@@ -31,8 +31,8 @@ def sides(normal: Vector, other: Floats) -> Sign:
     normal: cross products of two such vectors each.
     """
     determinant = dot(normal, other)
-    found: Sign = (determinant > _ROUNDING).view(np.int8) - (determinant < -_ROUNDING).view(np.int8)
-    return found
+    result: Sign = (determinant > _ROUNDING).view(np.int8) - (determinant < -_ROUNDING).view(np.int8)
+    return result
 
 
 def exact_sides(one: Floats, two: Floats, three: Floats) -> Sign:
@@ -43,13 +43,13 @@ def exact_sides(one: Floats, two: Floats, three: Floats) -> Sign:
     those of one list in general position.
     Source: Edelsbrunner and Mücke, Simulation of simplicity, 1990.
     """
-    found = _determinants(one, two, three)
+    result = _determinants(one, two, three)
     for decide in _disturbed(one, two, three):
-        rest = np.flatnonzero(found == 0)
+        rest = np.flatnonzero(result == 0)
         if not len(rest):
             break
-        found[rest] = decide(rest)
-    return found
+        result[rest] = decide(rest)
+    return result
 
 
 def _disturbed(one: Floats, two: Floats, three: Floats) -> Iterator[_Decide]:
@@ -78,8 +78,8 @@ def _sign_of_difference(a: Floats, b: Floats, c: Floats, d: Floats) -> Sign:
     ab, ab_rest = two_product(a, b)
     cd, cd_rest = two_product(c, d)
     # Rounding is monotone: the rounding errors decide only where the rounded products are equal.
-    found: Sign = np.where(ab != cd, np.sign(ab - cd), np.sign(ab_rest - cd_rest)).astype(np.int8)
-    return found
+    result: Sign = np.where(ab != cd, np.sign(ab - cd), np.sign(ab_rest - cd_rest)).astype(np.int8)
+    return result
 
 
 def _determinants(one: Floats, two: Floats, three: Floats) -> Sign:
@@ -89,12 +89,12 @@ def _determinants(one: Floats, two: Floats, three: Floats) -> Sign:
         a, b, c = (vector[row] for vector, row in zip((one, two, three), order, strict=True))
         for part in two_product(a, b):
             terms += [turn * each for each in two_product(part, c)]
-    found = _sign_of_sum(np.array(terms))
+    result = _sign_of_sum(np.array(terms))
     size = np.abs([one, two, three])
-    lost = ((size < _SMALL) & (size > 0)).any(axis=(0, 1)) | (found == 2)
+    lost = ((size < _SMALL) & (size > 0)).any(axis=(0, 1)) | (result == 2)
     for k in np.flatnonzero(lost):
-        found[k] = _rational(*(vector[:, k].tolist() for vector in (one, two, three)))
-    return found
+        result[k] = _rational(*(vector[:, k].tolist() for vector in (one, two, three)))
+    return result
 
 
 def _rational(*rows: list[float]) -> int:
@@ -110,7 +110,7 @@ def _sign_of_sum(terms: Floats) -> Sign:
     Each pass replaces the terms by others of the same sum: the last by the rounded sum, the others by rounding errors.
     The sign is that of the last term once it exceeds the sum of all others.
     """
-    found = np.full(terms.shape[1], 2, np.int8)
+    result = np.full(terms.shape[1], 2, np.int8)
     open_, count = np.arange(terms.shape[1]), len(terms)
     for _ in range(_PASSES):
         for k in range(1, count):
@@ -118,8 +118,8 @@ def _sign_of_sum(terms: Floats) -> Sign:
             terms[k - 1], terms[k] = error, total
         rest = np.abs(terms[:-1]).sum(axis=0) * (1 + 2 * count * EPSILON)
         known = (np.abs(terms[-1]) > rest) | ((terms[-1] == 0) & (rest == 0))
-        found[open_[known]] = np.sign(terms[-1, known]).astype(np.int8)
+        result[open_[known]] = np.sign(terms[-1, known]).astype(np.int8)
         open_, terms = open_[~known], terms[:, ~known]
         if not len(open_):
             break
-    return found
+    return result

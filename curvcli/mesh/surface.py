@@ -181,13 +181,13 @@ class Surface(Incidence):
     @cached_property
     def orientation(self) -> Orientation:
         """Patches and the sign of each face; orient="outward" turns closed patches that are inside out."""
-        found = self._file_orientation
+        result = self._file_orientation
         if self.orient == "file" or not self.inside_out.any():
-            return found
-        turned = self.inside_out[found.patch]
-        sign = np.ones(self.n_faces, np.int8) if found.face_sign is None else found.face_sign.copy()
+            return result
+        turned = self.inside_out[result.patch]
+        sign = np.ones(self.n_faces, np.int8) if result.face_sign is None else result.face_sign.copy()
         sign[turned] *= -1
-        return Orientation(found.patch, found.orientable, sign if (sign < 0).any() else None)
+        return Orientation(result.patch, result.orientable, sign if (sign < 0).any() else None)
 
     @cached_property
     def orientable(self) -> bool:

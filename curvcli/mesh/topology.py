@@ -135,11 +135,11 @@ def ends_of(faces: Index, half_edges: NDArray[np.integer]) -> tuple[Index, Index
 
 def faces_at(faces: Index, chosen: Mask) -> NDArray[np.intp]:
     """The faces with a corner among the chosen vertices."""
-    found = [np.zeros(0, np.intp)]
+    result = [np.zeros(0, np.intp)]
     for block in slices(len(faces), LONG):
         a, b, c = (chosen.take(corner) for corner in faces[block].T)
-        found.append(np.flatnonzero(a | b | c) + block.start)
-    return np.concatenate(found)
+        result.append(np.flatnonzero(a | b | c) + block.start)
+    return np.concatenate(result)
 
 
 def find_edges(faces: Index, vertices: int) -> Edges:

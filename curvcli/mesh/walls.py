@@ -35,8 +35,8 @@ def facing_pairs(surface: Surface) -> Pairs:
     of_edge = wall[len(pairs) :]
     ends = np.bincount(of_edge, others >= 2, minlength=count) > 0
     ends &= np.bincount(of_edge, (walls == 1) & (others < 2), minlength=count) == 0
-    found: Pairs = pairs[ends[wall[: len(pairs)]]]
-    return found
+    result: Pairs = pairs[ends[wall[: len(pairs)]]]
+    return result
 
 
 def _opposite(surface: Surface) -> Pairs:

@@ -52,7 +52,7 @@ def test_results_go_with_what_they_were_found_of() -> None:
     gc.disable()
     try:
         ask()
-        kept = inspect.getclosurevars(count).nonlocals["kept"]
+        kept = inspect.getclosurevars(count).nonlocals["cache"]
         assert len(kept) == 0
     finally:
         gc.enable()

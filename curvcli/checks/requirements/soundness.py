@@ -36,8 +36,8 @@ def no_degenerate(surface: Surface, degenerate_face: Flags) -> str:
 @requirement("no-duplicate-faces", default=True, remedy="remove the later of each two: both add to areas and angles")
 def no_duplicate_faces(surface: Surface) -> str:
     """No two faces have the same corners."""
-    found = faces(surface, duplicate_faces(surface), "with the corners of an earlier one")
-    return with_explanation(found, describe_walls(surface))
+    result = faces(surface, duplicate_faces(surface), "with the corners of an earlier one")
+    return with_explanation(result, describe_walls(surface))
 
 
 @requirement("no-unreferenced", remedy="remove them from the file; they change no value")

@@ -22,8 +22,8 @@ from .wording import edges, face_name, join_problems, located, vertices, with_ex
 )
 def closed(surface: Surface) -> str:
     """No edge has only one face."""
-    found = edges(surface, surface.boundary_edges, "with only one face")
-    return with_explanation(found, describe_best_welding(surface) if found else "")
+    result = edges(surface, surface.boundary_edges, "with only one face")
+    return with_explanation(result, describe_best_welding(surface) if result else "")
 
 
 @requirement(
@@ -35,11 +35,11 @@ def closed(surface: Surface) -> str:
 def manifold(surface: Surface) -> str:
     """Every edge has at most two faces and every star is one fan."""
     split = np.flatnonzero(surface.split_stars)
-    found = join_problems(
+    result = join_problems(
         edges(surface, surface.nonmanifold_edges, "with more than two faces"),
         vertices(split, "whose star is not one fan", "whose stars are not one fan"),
     )
-    return with_explanation(found, describe_walls(surface))
+    return with_explanation(result, describe_walls(surface))
 
 
 @requirement(

@@ -64,22 +64,22 @@ def fit(given: Moments) -> Jets:
     kept = terms.copy()
     kept[QUADRATIC:_CUBIC] *= _signal(terms[QUADRATIC:_CUBIC], residual, freedom)
     kept[_CUBIC:] = 0.0
-    found = _solve(lower, kept, np.zeros((_COUNT - _CUBIC, len(determined))))
-    expected = _quartic(found)
+    result = _solve(lower, kept, np.zeros((_COUNT - _CUBIC, len(determined))))
+    expected = _quartic(result)
     # The expected terms of degree 4 are subtracted from the heights before the groups are weighted.
     rest = terms - np.einsum("kij,kj->ij", lower[_CUBIC:_COUNT, :_COUNT], expected)
     rest[QUADRATIC:_CUBIC] *= third * _signal(rest[QUADRATIC:_CUBIC], residual, freedom)
     rest[_CUBIC:] *= fourth * _signal(rest[_CUBIC:], residual, freedom)
-    found = _solve(lower, rest, expected)
-    determined &= np.isfinite(found).all(axis=0)
-    found[:, ~determined] = np.nan
-    hessian = found[3:6] * np.array([2.0, 1.0, 2.0])[:, None]
+    result = _solve(lower, rest, expected)
+    determined &= np.isfinite(result).all(axis=0)
+    result[:, ~determined] = np.nan
+    hessian = result[3:6] * np.array([2.0, 1.0, 2.0])[:, None]
     spread = np.where(determined, given.of(2, 0) + given.of(0, 2), np.nan)
     size = np.sqrt(given.squared_height * given.size) / spread
     condition = np.where(determined, condition, np.nan)
     # Heights are rounded like distances in the neighbourhood, whose mean square is the spread over the number.
     rounding = _ROUNDING * condition * np.sqrt(given.size / spread)
-    return Jets(found[1:3], hessian, condition, size, rounding)
+    return Jets(result[1:3], hessian, condition, size, rounding)
 
 
 def _factor(given: Moments) -> tuple[Floats, Mask]:
@@ -115,12 +115,12 @@ def _signal(terms: Floats, residual: Floats, freedom: Floats) -> Floats:
 
 def _solve(lower: Floats, terms: Floats, expected: Floats) -> Floats:
     """(15, m) coefficients from the terms in the orthonormal basis, plus the expected terms of degree 4."""
-    found = terms.copy()
+    result = terms.copy()
     for k in reversed(range(_COUNT)):
-        found[k] /= lower[k, k]
-        found[:k] -= lower[k, :k] * found[k]
-    found[_CUBIC:] += expected
-    return found
+        result[k] /= lower[k, k]
+        result[:k] -= lower[k, :k] * result[k]
+    result[_CUBIC:] += expected
+    return result
 
 
 def _quartic(found: Floats) -> Floats:

@@ -61,10 +61,10 @@ def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integ
     place[used] = np.arange(len(used))
     chosen = np.flatnonzero(place[surface] >= 0)
     sides = Sides(xyz, faces[chosen], place[surface[chosen]], len(used))
-    found = _Search(sides, number.reshape(2, -1), low[:, used], high[:, used]).nesting(sign[used])
+    result = _Search(sides, number.reshape(2, -1), low[:, used], high[:, used]).nesting(sign[used])
     depth = np.zeros(n, np.int64)
-    depth[used] = found.depth
-    return Nesting(depth, used[found.crossing])
+    depth[used] = result.depth
+    return Nesting(depth, used[result.crossing])
 
 
 def _boxes(
