@@ -1,4 +1,4 @@
-"""How random meshes are drawn: the same ones in every run, so that a failure is a failure everywhere."""
+"""Settings of random meshes: the same ones in every run, so that a failure is a failure everywhere."""
 
 from __future__ import annotations
 

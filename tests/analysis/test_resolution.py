@@ -1,4 +1,4 @@
-"""What is said of rough and of creased meshes; nothing of smooth ones."""
+"""Notices of rough and of creased meshes; none of smooth ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What goes wrong: meshes that kill or hang their worker or eat its memory, and ends of the program at any moment."""
+"""Faults in a batch: meshes that kill or hang their worker or eat its memory, and ends of the program at any moment."""
 
 from __future__ import annotations
 

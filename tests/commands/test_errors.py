@@ -1,4 +1,4 @@
-"""What is refused: with which code, in one line, and with nothing written."""
+"""Refusals: exit code, one line of text, and no output written."""
 
 from __future__ import annotations
 

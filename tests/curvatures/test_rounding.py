@@ -1,4 +1,4 @@
-"""What is all rounding is null: planes have no shape, doubled faces no constant mean curvature."""
+"""Values within rounding are null: planes have no shape, doubled faces no constant mean curvature."""
 
 from __future__ import annotations
 

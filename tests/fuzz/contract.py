@@ -1,4 +1,4 @@
-"""What every run must keep, whatever the file holds."""
+"""Contract of every run, for any content of the file."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.fuzz.light import content, counts, topology
 
 @dataclass(frozen=True)
 class Ran:
-    """How a run ended and what it said."""
+    """Exit code and output of a run."""
 
     code: int
     out: bytes

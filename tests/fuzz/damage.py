@@ -1,4 +1,4 @@
-"""What happens to files: cut, flipped, spliced, recoded, packed, and lied in."""
+"""Damage to files: cut, flipped, spliced, recoded, packed, and lied in."""
 
 from __future__ import annotations
 

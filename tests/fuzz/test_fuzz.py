@@ -21,7 +21,7 @@ MEGABYTE = 1 << 20
 
 
 def held(cases: st.SearchStrategy[Case], folder: Path, many: int, run: Any = in_process) -> Counter[str]:
-    """How many cases were read and how many refused, all within the contract."""
+    """Numbers of cases read and refused, all within the contract."""
     counts: Counter[str] = Counter()
 
     @settings(

@@ -70,7 +70,7 @@ class Complex:
         self.component = numbered({n: of_vertex[face[0]] for n, face in enumerate(self.faces)}, range(len(self.faces)))
 
     def _fans(self, vertex: int) -> int:
-        """How many pieces the star falls into when its faces are joined through edges with n_e = 2."""
+        """Number of fans of the star, its faces joined through edges with n_e = 2."""
         spokes = [users for edge, users in self.at_edge.items() if vertex in edge and len(users) == 2]
         return len(set(classes(self.star[vertex], [(one, other) for (one, _), (other, _) in spokes]).values()))
 

@@ -1,4 +1,4 @@
-"""What `tests/exact` says, under the names of the product's columns, totals and topology."""
+"""Exact values of `tests/exact`, under the names of the columns, totals and topology of the report."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def edges(name: str) -> dict[str, Array]:
 
 
 def length_exponents() -> dict[str, int]:
-    """How totals grow with the surface."""
+    """Length exponents of totals."""
     return {
         "area": 2,
         "volume": 3,

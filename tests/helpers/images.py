@@ -1,4 +1,4 @@
-"""What the tests of pictures see in one: sizes, colours, a perceptual hash, and where texts stand."""
+"""Measurements of pictures: sizes, colours, a perceptual hash, and positions of texts."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ def decoded(png: bytes) -> tuple[Pixels, dict[str, str]]:
 
 
 def near(pixels: Pixels, color: tuple[int, int, int], tolerance: int = 24) -> NDArray[np.bool_]:
-    """Which pixels have about this colour."""
+    """Mask of the pixels with about this colour."""
     return (np.abs(pixels.astype(int) - color) <= tolerance).all(axis=-1)
 
 
 def difference_hash(pixels: Pixels, side: int = 16) -> NDArray[np.bool_]:
-    """Whether each cell of a coarse grid is brighter than the one to its left: alike for pictures that look alike."""
+    """Perceptual hash: cells of a coarse grid that are brighter than their left neighbour."""
     grey = pixels.astype(float).mean(axis=2)
     rows = np.array_split(np.arange(grey.shape[0]), side)
     columns = np.array_split(np.arange(grey.shape[1]), side + 1)

@@ -62,7 +62,7 @@ def facts(points: NDArray[np.float64], polygons: Polygons) -> Facts:
 
 @contextlib.contextmanager
 def silence() -> Iterator[None]:
-    """What others print and warn of is not ours."""
+    """Silence the output and warnings of other libraries."""
     with contextlib.ExitStack() as stack:
         stack.enter_context(contextlib.redirect_stdout(io.StringIO()))
         stack.enter_context(contextlib.redirect_stderr(io.StringIO()))

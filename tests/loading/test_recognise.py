@@ -1,4 +1,4 @@
-"""Which format a file has: by its name, by its content, and what is refused as none."""
+"""Recognition of formats by name and content, and refused content."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ def test_groups_that_are_gone_are_not_mistaken_for_new_ones() -> None:
 
 
 def test_groups_answer_for_the_surface_that_is_asked_about() -> None:
-    """What was found of one surface says nothing of another."""
+    """Results of one surface are not reused for another."""
     torus, cube = meshes.zoo("torus").surface(), curvcli.load(MESHES["cube"])
     assert torus.whole.edges(torus).size == len(torus.edges)
     assert torus.whole.edges(cube).size == len(cube.edges) == 18

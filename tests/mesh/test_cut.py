@@ -1,4 +1,4 @@
-"""What cutting a surface apart must not change: counts of a region are those of its own faces in the file."""
+"""Invariants of cutting a surface: counts of a region are those of its own faces in the file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tests of outputs write and how they see it refused."""
+"""Files that the tests of outputs write, and assertions on refusals."""
 
 from __future__ import annotations
 

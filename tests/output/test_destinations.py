@@ -1,4 +1,4 @@
-"""Where outputs may go: refusals before any work, links, devices, pipes and stdout."""
+"""Destinations of outputs: refusals before any work, links, devices, pipes and stdout."""
 
 from __future__ import annotations
 

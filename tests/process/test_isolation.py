@@ -1,4 +1,4 @@
-"""What the program does not do: run what it reads, reach the network, open or write what nobody named."""
+"""Forbidden acts of the program: run what it reads, reach the network, open or write what nobody named."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ LONG = 1 << 10
 
 
 def expected(arguments: Sequence[str]) -> tuple[int, bytes]:
-    """What a pipe that takes everything gets."""
+    """Bytes in a pipe that takes everything."""
     done = subprocess.run(served(*arguments), capture_output=True, env=environment(), timeout=120)
     return done.returncode, done.stdout
 

@@ -36,6 +36,6 @@ def unread(pipe: int) -> int:
 
 
 def _sleeps(process: subprocess.Popen[bytes]) -> bool:
-    """Whether it waits; taken for granted where the system does not tell."""
+    """Test for a waiting process; True where the system does not report it."""
     place = Path(f"/proc/{process.pid}/stat")
     return not place.exists() or place.read_text().rpartition(")")[2].split()[0] == "S"

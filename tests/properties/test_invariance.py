@@ -1,4 +1,4 @@
-"""What every quantity declares about itself, tried on every kind of surface: a new pass is tested with no edit here."""
+"""Declared invariances of every quantity, on every kind of surface: a new pass is tested with no edit here."""
 
 from __future__ import annotations
 
@@ -194,7 +194,7 @@ def reversed_column(quantity: Quantity, columns: Columns, without: Array) -> Arr
 
 @pytest.mark.parametrize("name", NAMES)
 def test_reversal_changes_the_sign_of_what_is_odd(name: str) -> None:
-    """What is declared even stays, what is declared odd changes its sign."""
+    """Even quantities stay, odd ones change their sign."""
     surface, found = meshes.zoo(name).surface(), changed(name, meshes.reversed_faces)
     face = ~surface.orientation.orientable[surface.orientation.patch]
     edge = face[surface.edges.order[surface.edges.start[:-1]] // 3]

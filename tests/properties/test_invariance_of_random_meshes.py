@@ -1,4 +1,4 @@
-"""What every quantity declares about itself, tried on random meshes."""
+"""Declared invariances of every quantity, on random meshes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is released: what stands in the two files, what they say of themselves, and that they work elsewhere."""
+"""Released files: content, metadata, and a run elsewhere."""
 
 from __future__ import annotations
 

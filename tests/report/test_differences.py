@@ -1,4 +1,4 @@
-"""What counts as moved: equal runs never, rounding never, everything else always and by name."""
+"""Differences that count as moved: equal runs never, rounding never, everything else always and by name."""
 
 from __future__ import annotations
 

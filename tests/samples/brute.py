@@ -66,7 +66,7 @@ def _pieces(things: object, links: object) -> int:
 
 
 def _two_sided(count: int, shared: list[list[tuple[int, bool]]]) -> bool:
-    """Whether the faces can be turned so that every shared edge is run along both ways."""
+    """Test for an orientation in which every shared edge has opposite half-edges."""
     turned: dict[int, bool] = {}
     beside: dict[int, list[tuple[int, bool]]] = defaultdict(list)
     for (a, way_a), (b, way_b) in shared:

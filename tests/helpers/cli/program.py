@@ -54,7 +54,7 @@ def served(*arguments: str | Path) -> list[str]:
 
 @cache
 def address() -> str:
-    """Where a server answers that ends with these tests."""
+    """Address of a server that ends with these tests."""
     place = TemporaryDirectory(prefix="curvcli-")  # the name of a socket has to be short
     socket = Path(place.name, "socket")
     server = subprocess.Popen([sys.executable, SERVER, socket], stdin=PIPE, stdout=PIPE, env=environment(**STRICT))

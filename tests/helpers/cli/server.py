@@ -108,7 +108,7 @@ def answer(line: socket.socket) -> None:
 
 
 def run() -> None:
-    """What `curvcli` does."""
+    """Run `curvcli`."""
     from curvcli.__main__ import main
 
     code = 70

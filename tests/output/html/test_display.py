@@ -1,4 +1,4 @@
-"""What of a surface is shown: vertices of the file, in their places."""
+"""Displayed vertices of a surface: vertices of the file, in their places."""
 
 from __future__ import annotations
 
