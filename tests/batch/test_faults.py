@@ -197,14 +197,14 @@ from curvcli.commands.allocation import keep_memory
 keep_memory()
 from curvcli.batch.model import Item, Limits, Settings
 from curvcli.batch.run import run
-from curvcli.support.memory import bound
+from curvcli.support.memory import limit_address_space
 from curvcli.curvatures.catalogue import load_passes
 from curvcli.loading.libraries import import_libraries, start_polars
 load_passes()
 import_libraries()
 start_polars()
 LIMIT = int(sys.argv[2]) << 20
-bound(LIMIT)
+limit_address_space(LIMIT)
 for number in range(3):
     outputs = (("", os.path.abspath(f"{number}.ply")),)
     item = Item(path="m", place=sys.argv[1], outputs=outputs)
