@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import curvcli
+from curvcli.curvatures.catalogue import load_passes
 from curvcli.samples import get
 from curvcli.support.blocks import for_each, map_pieces
 from tests.helpers import meshes
@@ -15,6 +16,7 @@ NAMES = ("K_plus", "K_abs", "theta", "edge_H_vec", "beta", "willmore_conformal",
 
 def test_threads_and_blocks_change_no_bit(monkeypatch: pytest.MonkeyPatch) -> None:
     given = meshes.torus()
+    load_passes()  # in their order, before a module is patched
 
     def found(threads: str, directions: int, edges: int) -> list[bytes]:
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
