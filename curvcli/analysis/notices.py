@@ -66,7 +66,7 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     for flag, name in (("below_noise", "K"), ("h_below_noise", "h")):
         if flag in columns:
             yield Notice.at(
-                "below_noise",
+                flag,
                 np.flatnonzero(columns[flag]),
                 f"[vertex|vertices] where |{name}| is below its own uncertainty {name}_sigma",
                 f"noise of the coordinates alone explains {name} there; estimates over more rings average noise out",

@@ -12,14 +12,9 @@ import numpy as np
 from ..curvatures.registry import passes
 from ..errors import Notice, UsageError
 from ..support.memory import require_polars
-from .appearance import (
-    DEFAULT,
-    Appearance,
-    color_needs,
-    colored_quantity,
-    colors,
-)
+from .appearance import DEFAULT, Appearance
 from .atomic import Outputs
+from .coloring import color_needs, colored_quantity, colors
 from .pictures.framing import check_look, parse_view
 from .registry import DocumentFormat, Format, MeshFormat, format_of, output_formats
 from .tables.columns import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table

@@ -45,6 +45,9 @@ APART = {
     ("test-nan.obj", "duplicate_vertices"): "the index counts unreferenced vertices too",
 }
 
+# Refused by the index, and read with a count of the trailing bytes.
+ACCEPTED = {"HalfDonut.stl"}
+
 # A reader that goes on into the next row of this file counts something else.
 STRICT_READING = {"fuze_ascii.ply"}
 
@@ -79,6 +82,9 @@ def test_a_real_file_ends_as_the_index_says(
     table, report = tmp_path / "t.csv", tmp_path / "r.json"
     code = run(monkeypatch, "analyze", str(SHARED / "meshes" / name), "-p", "all", "-o", str(table), "-o", str(report))
     out, err = capfd.readouterr()
+    if name in ACCEPTED:
+        assert code == 0, err
+        return
     if row["exit"]:
         assert code == int(row["exit"]), err
     assert code in (0, 3)

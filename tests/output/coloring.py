@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from curvcli.api import Analysis
 from curvcli.output import appearance
-from curvcli.output.appearance import Appearance, color_needs
+from curvcli.output.appearance import Appearance
+from curvcli.output.coloring import color_needs
 from curvcli.output.pictures.legend import Colored
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
     """The columns asked for, or all numbers of vertices."""
-    from ..appearance import vertex_quantities
+    from ..coloring import vertex_quantities
 
     numbers = (name for name, q in vertex_quantities(chosen).items() if not q.vector and not q.labels)
     return appearance.color_by or tuple(numbers)
@@ -26,7 +26,7 @@ def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: s
     require_pictures(False)
     # On another stack: frames that such imports keep refer to those below, and these to the analysis.
     import_apart("matplotlib.figure")
-    from ..appearance import colored
+    from ..coloring import colored
     from ..pictures.histogram import write_histograms
     from ..pictures.legend import sentence
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def shows(appearance: Appearance, chosen: list[str]) -> list[str]:
     """All numbers, and the columns asked for."""
-    from ..appearance import vertex_quantities
+    from ..coloring import vertex_quantities
 
     numbers = [name for name, quantity in vertex_quantities(chosen).items() if not quantity.labels]
     return [*numbers, *appearance.color_by]
@@ -21,7 +21,7 @@ def shows(appearance: Appearance, chosen: list[str]) -> list[str]:
 
 def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
     """Write one file without references."""
-    from ..appearance import COLOR_BY
+    from ..coloring import COLOR_BY
     from ..html.page import page
 
     first = appearance.color_by or tuple(name for name in COLOR_BY if name in analysis.chosen)[:1]

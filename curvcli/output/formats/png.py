@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
     """The columns asked for, or the first of those that colour a mesh."""
-    from ..appearance import COLOR_BY
+    from ..coloring import COLOR_BY
 
     return appearance.color_by or tuple(name for name in (*COLOR_BY, "status") if name in chosen)[:1]
 
@@ -25,7 +25,7 @@ def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: s
     require_pictures()
     # On another stack: frames that such imports keep refer to those below, and these to the analysis.
     import_apart("matplotlib.figure", "pyvista.plotting")
-    from ..appearance import colored
+    from ..coloring import colored
     from ..pictures.legend import sentence
     from ..pictures.picture import write_picture
 

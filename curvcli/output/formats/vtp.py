@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def shows(appearance: Appearance, chosen: list[str]) -> list[str]:
     """The column of the colours, if there is one."""
-    from ..appearance import coloring
+    from ..coloring import coloring
 
     name = coloring(appearance, chosen)
     return [] if name is None else [name]

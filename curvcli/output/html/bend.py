@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...analysis.resolution import STARS
-from ..appearance import along_edges, colored
+from ..coloring import along_edges, colored
 from ..pictures.legend import Colored
 from .display import Display
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.file import Labels
-from ..appearance import colored
+from ..coloring import colored
 from ..pictures.colors import ColorScale
 from ..pictures.legend import Colored
 from ..tables.columns import vertex_table

@@ -1,0 +1,97 @@
+"""Colours of a mesh: the column that colours it, and the same colours in every output."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..analysis.result import Result
+from ..curvatures.quantity import Quantity
+from ..curvatures.registry import passes
+from ..errors import UsageError
+from ..support.words import suggestion
+
+if TYPE_CHECKING:
+    from .pictures.colors import ColorScale
+    from .pictures.legend import Colored
+
+
+from .appearance import Appearance
+
+# Default columns that colour a mesh: the first of these that was computed.
+COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
+
+
+def vertex_quantities(chosen: list[str]) -> dict[str, Quantity]:
+    """Vertex columns that were computed, each with its quantity."""
+    return {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
+
+
+def along_edges() -> dict[str, Quantity]:
+    """Numeric columns of edges, each with its quantity."""
+    return {column: q for q in passes.quantities("edge") for column in q.columns if not q.vector}
+
+
+def colored_quantity(name: str, chosen: list[str]) -> Quantity:
+    """Quantity whose column colours the mesh or its edges; edge columns are computed with every table of edges."""
+    columns = vertex_quantities(chosen)
+    along = along_edges()
+    if name in along and name not in columns:
+        return along[name]
+    if name not in columns:
+        offered = vertex_quantities([quantity.name for quantity in passes.quantities("vertex")])
+        if name in offered:
+            raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
+        way_out = suggestion(name, [*offered, *along], "`curvcli passes` lists them")
+        raise UsageError(f"--color-by {name}: no such column of vertices{way_out}")
+    return columns[name]
+
+
+def color_needs(name: str, chosen: list[str]) -> set[str]:
+    """The quantities that the colours of a column are made from."""
+    from .pictures.floor import floor_needs
+
+    quantity = colored_quantity(name, chosen)
+    if quantity.on == "edge":
+        return {quantity.name, "theta"}
+    return set() if quantity.labels else floor_needs(quantity)
+
+
+def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
+    """Column with its colours, the same in every output."""
+    from .pictures.colors import categorize, colorize
+    from .pictures.floor import edge_floor, floor
+    from .pictures.legend import Colored
+
+    quantity = colored_quantity(name, analysis.chosen)
+    if quantity.on == "edge":
+        values, theta = (analysis.edges[key].astype(np.float64) for key in (name, "theta"))
+        flat = edge_floor(analysis, theta) if quantity.signed else None
+        cmap, value_range = appearance.cmap, appearance.value_range
+        scale = colorize(values, cmap=cmap, value_range=value_range, signed=quantity.signed, floor=flat)
+        return Colored(name, quantity, scale)
+    if quantity.labels:
+        return Colored(name, quantity, categorize(analysis.columns[name], quantity.labels))
+    values = np.where(analysis.surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
+    scale = colorize(
+        values,
+        cmap=appearance.cmap,
+        value_range=appearance.value_range,
+        signed=quantity.signed or quantity.vector,
+        ignore=analysis.surface.boundary,
+        floor=floor(analysis, quantity, values),
+    )
+    return Colored(name, quantity, scale)
+
+
+def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] | None:
+    """Column that colours the surface, and its colours; None when no column was computed."""
+    name = coloring(appearance, analysis.chosen)
+    return None if name is None else (name, colored(analysis, name, appearance).scale)
+
+
+def coloring(appearance: Appearance, chosen: list[str]) -> str | None:
+    """The column that colours a mesh."""
+    asked = (name for name in appearance.color_by if name in vertex_quantities(chosen))
+    return next(asked, next((name for name in COLOR_BY if name in chosen), None))
