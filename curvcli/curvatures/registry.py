@@ -15,10 +15,8 @@ from operator import getitem
 from typing import Any, get_args
 
 from ..errors import UsageError
-from ..loading.load import as_surface
 from ..mesh.scale import PARAMETERS
 from ..support.words import suggestion
-from .engine import evaluate, in_file_unit
 from .order import TOTAL_PLACES, ordered
 from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity
 
@@ -51,6 +49,10 @@ class Pass:
 
         surface: a Surface, a path, a trimesh.Trimesh or a pair (points, faces).
         """
+        # scipy, which these import, is not needed to look a quantity up
+        from ..loading.load import as_surface
+        from .engine import evaluate, in_file_unit
+
         surface = as_surface(surface)
         found = evaluate(self.registry or passes, surface, [quantity.name for quantity in self.provides])
         shown = {q.name: in_file_unit(q, found[q.name], surface) for q in self.provides}
