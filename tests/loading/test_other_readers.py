@@ -23,6 +23,7 @@ def _vtk_ends() -> Iterator[None]:
     yield
     if vtk_process.cache_info().currsize and (process := vtk_process()) is not None:
         process.communicate()
+    vtk_process.cache_clear()  # the tests of a module may come in several parts
 
 
 @cache

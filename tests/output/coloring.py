@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from curvcli.api import Analysis
-from curvcli.output import appearance
+from curvcli.output import coloring
 from curvcli.output.appearance import Appearance
 from curvcli.output.coloring import color_needs
 from curvcli.output.pictures.legend import Colored
@@ -12,4 +12,4 @@ from curvcli.output.pictures.legend import Colored
 def colored(analysis: Analysis, name: str) -> Colored:
     """The column with the colours that outputs give it."""
     analysis.include(color_needs(name, analysis.chosen))
-    return appearance.colored(analysis, name, Appearance())
+    return coloring.colored(analysis, name, Appearance())

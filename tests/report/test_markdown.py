@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 
@@ -63,7 +64,7 @@ def test_the_verdict_the_checks_and_the_totals(name: str) -> None:
 def test_what_fails_comes_first() -> None:
     analysis = curvcli.analyze(tuple(of_sample("torus")))
     report = model(analysis)
-    report.checks[3].status = "fail"
+    report.checks[3] = replace(report.checks[3], status="fail")
     text = markdown(report)
     assert text.splitlines()[2].startswith("**FAIL** · 1 identity fails, ")
     (checks, *_) = tables(text)
@@ -75,8 +76,8 @@ def test_what_fails_comes_first() -> None:
 def test_names_from_the_file_are_text(tmp_path: Path) -> None:
     path = labelled(grid(), tmp_path / "a|b `c` <img src=x> @me #1.obj", HOSTILE)
     report = model(curvcli.analyze(str(path), regions="groups"))
-    failed = next(row for row in report.checks if row.scope.startswith("region"))
-    failed.status, failed.detail = "fail", HOSTILE
+    k = next(k for k, check in enumerate(report.checks) if check.scope.startswith("region"))
+    report.checks[k] = replace(report.checks[k], status="fail", detail=HOSTILE)
     text = markdown(report, "curvcli analyze '```' x")
     assert text.splitlines()[0] == f"### curvcli: `` {path} ``"
     assert "````sh\ncurvcli analyze '```' x\n````" in text
