@@ -6,6 +6,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from contextvars import copy_context
 from itertools import chain, islice
 from typing import TypeVar
@@ -21,6 +22,19 @@ def _alone() -> bool:
     """Test for a single usable thread."""
     # The variable that numerical libraries obey; a batch sets it for its workers, each of which has one core.
     return (os.cpu_count() or 1) < _THREADS or os.environ.get("OMP_NUM_THREADS") == "1"
+
+
+@contextmanager
+def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Result]], Callable[[], _Result]]]:
+    """Provide a function that starts work in another thread and returns a function that waits for the result.
+
+    worth: False for little work, which is then done in this thread on the first request of its result.
+    """
+    if _alone() or not worth:
+        yield lambda work: work
+        return
+    with ThreadPoolExecutor(1) as pool:
+        yield lambda work: pool.submit(copy_context().run, work).result
 
 
 def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:

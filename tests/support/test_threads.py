@@ -8,7 +8,7 @@ import pytest
 import curvcli
 from curvcli.curvatures.catalogue import load_passes
 from curvcli.samples import get
-from curvcli.support.blocks import for_each, map_pieces
+from curvcli.support.blocks import background_thread, for_each, map_pieces
 from tests.helpers import meshes
 
 NAMES = ("K_plus", "K_abs", "theta", "edge_H_vec", "beta", "willmore_conformal", "dir_1", "dir_2")
@@ -44,6 +44,21 @@ def test_angles_worked_out_beside_the_rest_are_the_same(monkeypatch: pytest.Monk
 
 
 @pytest.mark.parametrize("threads", ["1", "2"])
+def test_a_failure_in_another_thread_is_raised_where_it_is_asked_for(
+    threads: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", threads)
+
+    def work() -> int:
+        raise MemoryError
+
+    with background_thread() as begun:
+        result = begun(work)
+        with pytest.raises(MemoryError):
+            result()
+
+
+@pytest.mark.parametrize("threads", ["1", "2"])
 @pytest.mark.parametrize("failing", [0, 1, 99])
 def test_a_failure_in_a_thread_is_raised(threads: str, failing: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OMP_NUM_THREADS", threads)
@@ -66,5 +81,7 @@ def test_what_numpy_is_to_do_about_errors_holds_in_threads_too(threads: str, mon
 
     with np.errstate(over="ignore"):
         assert list(map_pieces(range(3), square)) == [np.inf] * 3
+        with background_thread() as begun:
+            assert begun(lambda: square(0))() == np.inf
     with np.errstate(over="raise"), pytest.raises(FloatingPointError):
         list(map_pieces(range(3), square))

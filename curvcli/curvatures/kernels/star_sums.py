@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from itertools import cycle
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...mesh.surface import Surface
 from ...mesh.topology import faces_at
 from ...mesh.triangles import Triangles, cross, triangles
 from ...support.arrays import Floats, Index, Mask, Sign
-from ...support.blocks import ENTRIES, slices
+from ...support.blocks import ENTRIES, background_thread, for_each, slices
 
 # Stars with more faces are summed pairwise.
 LARGE_STAR = 32
@@ -44,30 +48,48 @@ def star_sums(surface: Surface) -> StarSums:
 
 def _sweep(xyz: Floats, faces: Index, sign: Sign | None) -> StarSums:
     n, n_faces = xyz.shape[1], len(faces)
-    angle, area, extents = np.zeros(n), np.zeros(n), np.zeros(n)
-    vector, curvature = np.zeros((3, n)), np.zeros((3, n))
+    angle, area, extents = np.empty(n), np.empty(n), np.empty(n)
+    vector, curvature = np.empty((3, n)), np.empty((3, n))
+    # Touched for the first time in order and by two threads, memory costs less than where the sums happen to fall.
+    for_each([angle, area, extents, *vector, *curvature], lambda row: row.fill(0))
     face_area = np.empty(n_faces)
     degenerate, coincident = np.zeros(n_faces, bool), np.zeros(n, bool)
-    angles = np.empty((3, min(ENTRIES, n_faces)))
-    for block in slices(n_faces):
-        t = triangles(xyz, faces[block])
-        sixth, extent = t.twice_area / 6, t.extent()
-        face_area[block] = t.twice_area / 2
-        for corner, each in zip(t.corners, t.angles(angles), strict=True):
+
+    def add_angles(corners: NDArray[np.intp], angles: Callable[[], list[Floats]]) -> None:
+        for corner, each in zip(corners, angles(), strict=True):
             np.add.at(angle, corner, each)
-            np.add.at(area, corner, sixth)
-            np.add.at(extents, corner, extent)
-        if t.degenerate is not None:
-            degenerate[block] = t.degenerate
-            _mark_coincident(coincident, t)
-        at_0, at_2 = _gradient_terms(t)
-        for k in range(3):
-            third = t.normal[k] / 6
-            for j, corner in enumerate(t.corners):
-                np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
-            np.subtract.at(curvature[k], t.corners[0], at_0[k])
-            np.add.at(curvature[k], t.corners[1], at_0[k] + at_2[k])
-            np.subtract.at(curvature[k], t.corners[2], at_2[k])
+
+    waiting = None
+    # The thread's results have memory of their own, two blocks in turn: memory that the thread allocates itself is
+    # returned to the system with every block.
+    rooms = cycle(np.empty((2, 3, min(ENTRIES, n_faces))))
+    # Arc tangents take nearly half of the sweep. A second thread computes those of a block beside the rest of it: core
+    # takes 0.47 s instead of 0.50 s at 1,000,000 vertices, medians of 5 in turn on two idle cores.
+    with background_thread(n_faces > ENTRIES) as begun:
+        for block in slices(n_faces):
+            t = triangles(xyz, faces[block])
+            angles = begun(partial(t.angles, next(rooms)))
+            sixth, extent = t.twice_area / 6, t.extent()
+            face_area[block] = t.twice_area / 2
+            for corner in t.corners:
+                np.add.at(area, corner, sixth)
+                np.add.at(extents, corner, extent)
+            if t.degenerate is not None:
+                degenerate[block] = t.degenerate
+                _mark_coincident(coincident, t)
+            at_0, at_2 = _gradient_terms(t)
+            for k in range(3):
+                third = t.normal[k] / 6
+                for j, corner in enumerate(t.corners):
+                    np.add.at(vector[k], corner, third if sign is None else third * sign[block, j])
+                np.subtract.at(curvature[k], t.corners[0], at_0[k])
+                np.add.at(curvature[k], t.corners[1], at_0[k] + at_2[k])
+                np.subtract.at(curvature[k], t.corners[2], at_2[k])
+            if waiting is not None:
+                add_angles(*waiting)
+            waiting = t.corners, angles
+        if waiting is not None:
+            add_angles(*waiting)
     return StarSums(angle, area, vector, curvature, extents, face_area, degenerate, coincident)
 
 
