@@ -78,9 +78,11 @@ def floor(analysis: Result, quantity: Quantity, values: Floats) -> Floats | None
     rounding = _Rounding(analysis)
     found = np.zeros(len(values))
     if known.any():
-        reach = analysis.surface.in_file_unit(rounding.reach(quantity), quantity.length_exponent)
-        # If even the coarsest bound is exceeded, or a value has the colour of 0 anyway, no finer bound is computed.
-        if ((np.abs(values) <= reach) & (np.abs(values) > _UNSEEN * np.median(known))).any():
+        # If even a coarse bound is exceeded, or a value has the colour of 0 anyway, no finer bound is computed. The
+        # coarsest needs no sweep over the faces: at 1,000,000 vertices it saves a sixth of the time of a coloured PLY.
+        seen = np.abs(values) > _UNSEEN * np.median(known)
+        effects = (rounding.coarse_effects, lambda: _turns(analysis)[1:])
+        if all((np.abs(values) <= rounding.reach(quantity, *effect()))[seen].any() for effect in effects):
             found = analysis.surface.in_file_unit(bound(rounding), quantity.length_exponent)
             found = found * (0.5**quantity.mean_degree if analysis.conventions.mean == "average" else 1.0)
     found = np.where(zero, np.where(settled, np.finfo(np.float64).tiny, 0.0), found)
@@ -109,14 +111,38 @@ class _Rounding:
     def __init__(self, analysis: Result) -> None:
         self.column = analysis.computed
         self.area: Floats = analysis.columns["star_area"]
-        self.place, self.turned, self.pulled = _turns(analysis)
         self.analysis = analysis
 
-    def reach(self, quantity: Quantity) -> Floats:
-        """Coarse bound without the edges: the effect of faces that turn by the last place over their heights."""
+    @property
+    def place(self) -> float:
+        """Last place of the coordinates."""
+        return _turns(self.analysis)[0]
+
+    @property
+    def pulled(self) -> Floats:
+        """Largest effect of the last place on the centre of each star."""
+        return _turns(self.analysis)[2]
+
+    def coarse_effects(self) -> tuple[Floats, Floats]:
+        """Bounds of `_turns` from the smallest face: no edge of a star is longer than the star's extent."""
+        extent, face_area = self.analysis.columns.get("star_extent"), self.analysis.columns["face_area"]
+        smallest = face_area.min()
+        if extent is None or not smallest > 0:
+            infinite = np.full(len(self.area), np.inf)
+            return infinite, infinite
+        with np.errstate(over="ignore"):
+            turned = 8 * _place(self.analysis) / smallest * extent
+            return turned, turned * extent
+
+    def reach(self, quantity: Quantity, turned: Floats, pulled: Floats) -> Floats:
+        """Coarse bound in the file's unit: the effect of faces that turn by the last place over their heights."""
+        reach = self._reach(quantity, turned, pulled)
+        return self.analysis.surface.in_file_unit(reach, quantity.length_exponent)
+
+    def _reach(self, quantity: Quantity, turned: Floats, pulled: Floats) -> Floats:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            K, h = self.turned + _DEFECT, self.pulled / self.area
-            reach = {0: K, -1: h, -2: K / self.area, 1: self.pulled}.get(quantity.length_exponent, np.inf + h)
+            K, h = turned + _DEFECT, pulled / self.area
+            reach = {0: K, -1: h, -2: K / self.area, 1: pulled}.get(quantity.length_exponent, np.inf + h)
             if quantity.name.partition(AT_SCALE)[0] in _KAPPAS:
                 reach = h + np.sqrt(h * (np.abs(self.column("h")) + h) + K / self.area)
             elif quantity.mean_degree == 2:
@@ -157,11 +183,17 @@ class _Rounding:
         return 2 * lifted if quantity.mean_degree else lifted
 
 
+def _place(analysis: Result) -> float:
+    """Last place of the coordinates, of float32 where they all are such numbers."""
+    surface = analysis.surface
+    return last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
+
+
 @cached
 def _turns(analysis: Result) -> tuple[float, Floats, Floats]:
     """Last place of the coordinates, and its largest effect on the faces of each star and on its centre."""
     surface, face_area = analysis.surface, analysis.columns["face_area"]
-    place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
+    place = _place(analysis)
     a, longest = surface.faces.ravel(), _longest(analysis)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         turn = np.nan_to_num(8 * place * longest / face_area)
