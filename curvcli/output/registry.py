@@ -100,6 +100,14 @@ def output_formats() -> Mapping[str, Format]:
     return {one.suffix: one for one in order}
 
 
+def mesh_color(appearance: Appearance, chosen: list[str]) -> list[str]:
+    """The column that colours a mesh, if there is one."""
+    from .coloring import coloring
+
+    name = coloring(appearance, chosen)
+    return [] if name is None else [name]
+
+
 def listed(*kinds: Kind) -> str:
     """The suffixes of these kinds in a sentence."""
     return " ".join(suffixes(kinds))

@@ -18,10 +18,9 @@ Floats = NDArray[np.float64]
 TURN = 2 * np.pi
 
 
-def areas(stars: Floats, seed: int = 0) -> Floats:
-    """Of an array (n, d, 3) of directions, with hints that mean nothing."""
-    hint = np.random.default_rng(seed).normal(size=(3, len(stars)))
-    return normal_cone_areas(np.ascontiguousarray(stars.transpose(2, 1, 0), np.float64), hint)
+def areas(stars: Floats) -> Floats:
+    """Of an array (n, d, 3) of directions."""
+    return normal_cone_areas(np.ascontiguousarray(stars.transpose(2, 1, 0), np.float64))
 
 
 def angle(a: Floats, b: Floats) -> float:

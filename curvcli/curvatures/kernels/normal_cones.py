@@ -23,11 +23,11 @@ _COPLANAR = 32 * EPSILON
 _UNDERFLOW = float(np.finfo(np.float64).tiny) / EPSILON
 
 
-def normal_cone_areas(directions: Floats, hint: Floats | None = None) -> Floats:
+def normal_cone_areas(directions: Floats) -> Floats:
     """(n,) solid angle of the normal cone {x: x·d_i ≤ 0} of the cone that the directions span.
 
     2π − Σ of the angles between neighbouring extreme directions; 0 where the cone contains a line. directions:
-    (3, d, n), none of them zero. hint: accepted from older callers, and of no effect.
+    (3, d, n), none of them zero.
     """
     if directions.shape[1] > _COUNTED:
         return hull_cone_areas(directions)

@@ -4,19 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from ..registry import MeshFormat, register
+from ..registry import MeshFormat, mesh_color, register
 
 if TYPE_CHECKING:
     from ...errors import Notice
-    from ..appearance import Appearance
-
-
-def shows(appearance: Appearance, chosen: list[str]) -> list[str]:
-    """The column of the colours, if there is one."""
-    from ..coloring import coloring
-
-    name = coloring(appearance, chosen)
-    return [] if name is None else [name]
 
 
 def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
@@ -27,4 +18,6 @@ def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Noti
     return ()
 
 
-register(MeshFormat(suffix=".obj", description="mesh with vertex colours, text", place=2, write=write, shows=shows))
+register(
+    MeshFormat(suffix=".obj", description="mesh with vertex colours, text", place=2, write=write, shows=mesh_color)
+)
