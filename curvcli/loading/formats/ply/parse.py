@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ....errors import InputError, Notice
 from ....mesh.file import MeshFile
 from ....support.words import pluralize
+from ...corners import checked_corners
 from ...limits import check_faces
 from ...pieces import Pieces
 from .header import CORNERS, HEADER_END, TOO_SMALL, Element, Header, parse_header
@@ -80,13 +81,13 @@ def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: li
         faces = content["face"]
         sizes, indices = faces.lists[_corner_property(elements["face"])]
         _refuse_shifted(sizes, elements, "face", notices)
-        corners = _checked(indices, sizes, "face", xyz.shape[1])
+        corners = checked_corners(indices, sizes, "face", xyz.shape[1])
         properties = faces.scalars
         corners, sizes, properties = _without_short(corners, sizes, properties, notices)
     if "tristrips" in elements and elements["tristrips"].count:
         lengths, indices = content["tristrips"].lists[_corner_property(elements["tristrips"])]
         _refuse_shifted(lengths, elements, "tristrips", notices)
-        _checked(indices, lengths, "tristrips", xyz.shape[1], lowest=-1)
+        checked_corners(indices, lengths, "tristrips", xyz.shape[1], lowest=-1)
         strips = strip_triangles(indices, lengths)
         corners, properties = np.concatenate((corners, strips.reshape(-1))), {}
         sizes = np.concatenate((sizes, np.full(len(strips), 3)))
@@ -130,24 +131,6 @@ def _refuse_shifted(sizes: NDArray[np.int64], elements: dict[str, Element], name
 def _has_extra_values(notices: list[Notice], name: str) -> bool:
     """Test whether the first row of an element has more values than announced."""
     return any(n.code == "extra_values" and n.examples[:1] == (0,) and f"`{name}`" in n.message for n in notices)
-
-
-def _checked(
-    indices: NDArray[Any], sizes: NDArray[np.int64], name: str, vertices: int, lowest: int = 0
-) -> NDArray[np.int32]:
-    """Check that all indices are whole numbers in range, and return them."""
-    if indices.dtype.kind == "f":
-        fraction = np.flatnonzero((indices != np.floor(indices)) | np.isinf(indices))
-        if len(fraction):
-            row = int(np.searchsorted(np.cumsum(sizes), fraction[0], side="right"))
-            found = f"{indices[fraction[0]]:g}"
-            raise InputError(f"vertex index {found} found, a whole number expected", place=f"{name} {row}")
-    if len(indices) and (int(indices.min()) < lowest or int(indices.max()) >= vertices):
-        wrong = int(np.flatnonzero((indices < lowest) | (indices >= vertices))[0])
-        row = int(np.searchsorted(np.cumsum(sizes), wrong, side="right"))
-        expected = f"0 to {vertices - 1} expected" if vertices else "but no vertex"
-        raise InputError(f"vertex index {int(indices[wrong])} found, {expected}", place=f"{name} {row}")
-    return np.ascontiguousarray(indices, np.int32)
 
 
 def _without_short(
