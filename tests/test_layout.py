@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import re
+from collections import Counter
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -85,3 +87,26 @@ def test_one_cache() -> None:
     users = {path.relative_to(PACKAGE).as_posix() for path in SOURCES.values() if "WeakKeyDictionary" in names_in(path)}
     assert users == {"support/cache.py", "mesh/neighbourhoods.py"}
     assert not [module for module, path in SOURCES.items() if "lru_cache" in names_in(path)]
+
+
+def classes_in(path: Path) -> list[str]:
+    """Classes of a module and the types it gives a name to, without leading underscores."""
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    assigned = [node for node in body if isinstance(node, ast.Assign) and not is_type_variable(node.value)]
+    types = [name.id for node in assigned for name in node.targets if isinstance(name, ast.Name)]
+    names = [node.name for node in body if isinstance(node, ast.ClassDef)] + [name for name in types if is_type(name)]
+    return [name.lstrip("_") for name in names]
+
+
+def is_type(name: str) -> bool:
+    return re.match("_?[A-Z][a-z]", name) is not None
+
+
+def is_type_variable(value: ast.expr) -> bool:
+    return isinstance(value, ast.Call) and "TypeVar" in ast.unparse(value.func)
+
+
+def test_a_class_name_stands_once() -> None:
+    count = Counter(name for path in SOURCES.values() for name in classes_in(path))
+    assert [name for name, number in count.items() if number > 1] == []
+    assert count["Report"] == 1

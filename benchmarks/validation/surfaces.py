@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from curvcli.samples import get
 from curvcli.samples.curvature import principal
-from curvcli.samples.model import Columns
+from curvcli.samples.model import ExactColumns
 
 Floats = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ class Mesh:
 
     points: Floats
     faces: NDArray[np.int32]
-    exact: Columns
+    exact: ExactColumns
 
 
 Make = Callable[[int], Mesh]
@@ -42,7 +42,7 @@ def revolved(
     radius: Callable[[Floats], Floats],
     height: Callable[[Floats], Floats],
     pace: Callable[[Floats], Floats],
-    curvatures: Callable[[Floats], Columns],
+    curvatures: Callable[[Floats], ExactColumns],
     end: float,
 ) -> Make:
     """A surface of revolution over 0 ≤ t ≤ end through random points, uniform by area; ds = pace dt."""
@@ -89,7 +89,7 @@ def around(phi: Floats, w: Floats) -> NDArray[np.int32]:
 def catenoid() -> Make:
     """cosh between −1 and 1."""
 
-    def curvatures(t: Floats) -> Columns:
+    def curvatures(t: Floats) -> ExactColumns:
         bent = 1 / np.cosh(t - 1) ** 2
         return principal(bent, -bent)
 
@@ -105,7 +105,7 @@ def unduloid(neck: float = 0.4, bulge: float = 1.0) -> Make:
     def radius(t: Floats) -> Floats:
         return np.asarray(bulge * np.sqrt(1 - modulus * np.sin(t) ** 2))
 
-    def curvatures(t: Floats) -> Columns:
+    def curvatures(t: Floats) -> ExactColumns:
         ratio = neck * bulge / radius(t) ** 2
         return principal((1 + ratio) / pace, (1 - ratio) / pace)
 

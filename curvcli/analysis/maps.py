@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks.base import Check, CheckRule, Outcome, rounding
+from ..checks.base import Check, CheckRule, IdentityValues, rounding
 from ..curvatures.kernels.cotangents import Dirichlet, dirichlet
 from ..errors import InputError, Notice
 from ..loading.load import as_surface
@@ -204,7 +204,7 @@ class SurfaceMap:
 
     def _check(self, name: str, value: float, expected: float, terms: float, detail: str) -> Check:
         tolerance = rounding(self.source, np.array([terms]))
-        outcome = Outcome(np.array([value]), np.array([expected]), tolerance, length_exponent=2, detail=detail)
+        outcome = IdentityValues(np.array([value]), np.array([expected]), tolerance, length_exponent=2, detail=detail)
         if len(self._degenerate):
             some = f"{counted(len(self._degenerate), 'face')} of the source without area"
             outcome.exclude(np.array([True]), f"{some}, the first is {self._degenerate[0]}")

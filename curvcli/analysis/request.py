@@ -18,12 +18,12 @@ from ..curvatures.quantity import AT_SCALE, CELL_AREAS
 from ..curvatures.registry import passes as registry
 from ..errors import UsageError
 from ..mesh.precision import precision
-from ..mesh.scale import DEFAULTS, Settings, parse_scales
+from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Orient, Surface
 
 Area = Literal["barycentric", "mixed", "voronoi"]
 Mean = Literal["sum", "average"]
-Normals = Literal["mesh", "file"]
+NormalSource = Literal["mesh", "file"]
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Request:
     checks: str | Iterable[str] | None = None
     rings: str | int | Iterable[str | int] | None = None
     radius: str | float | Iterable[str | float] | None = None
-    normals: Normals = "mesh"
+    normals: NormalSource = "mesh"
     noise: float | None = None
     besides: Collection[str] = ()
 
@@ -77,10 +77,10 @@ class Request:
                 raise UsageError(f"{option} is {value!r}, expected one of {', '.join(values)}")
 
     @cached_property
-    def settings(self) -> Settings:
+    def settings(self) -> EstimatorSettings:
         """Scales, normals and noise of estimates."""
         scales = parse_scales(self.rings, self.radius)
-        return Settings(scales or DEFAULTS.scales, self.normals, self.noise)
+        return EstimatorSettings(scales or DEFAULTS.scales, self.normals, self.noise)
 
     @cached_property
     def chosen(self) -> list[str]:

@@ -17,7 +17,7 @@ from ..errors import FAILED_CHECK, INTERNAL, OK, OUTPUT
 from ..support.words import escape_text
 from .locations import hash_of, is_url, length_of, read_url
 from .manifest import Manifest
-from .model import Engine, Item, Row, Settings
+from .model import BatchItem, BatchSettings, Engine, Row
 from .summary import write_summary
 
 _WRITTEN = ("ok", "failed_checks")
@@ -31,8 +31,8 @@ class Batch:
     strict: a failed check gives exit code 1 to its mesh.
     """
 
-    items: Sequence[Item]
-    settings: Settings
+    items: Sequence[BatchItem]
+    settings: BatchSettings
     folder: str
     manifest: Manifest
     strict: bool = False
@@ -44,7 +44,7 @@ class Batch:
         self.rows: list[Row] = []
         _sweep(self.items)
 
-    def todo(self) -> list[Item]:
+    def todo(self) -> list[BatchItem]:
         """Meshes that are not done, or changed, or whose outputs differ from those written."""
         with ThreadPoolExecutor() as pool:
             done = list(pool.map(self._done, self.items))
@@ -53,7 +53,7 @@ class Batch:
                 self._kept[item.path] = self._coded(row)
         return [item for item, row in zip(self.items, done, strict=True) if row is None]
 
-    def work(self, engine: Engine, todo: Sequence[Item]) -> Iterator[Row]:
+    def work(self, engine: Engine, todo: Sequence[BatchItem]) -> Iterator[Row]:
         """Run the meshes; every row is on the disk before it is yielded."""
         for row in engine(todo, self.settings):
             row.options = self._options
@@ -73,7 +73,7 @@ class Batch:
         self.rows = [ended[item.path] for item in self.items if item.path in ended]
         write_summary(self.folder, self.rows)
 
-    def _done(self, item: Item) -> Row | None:
+    def _done(self, item: BatchItem) -> Row | None:
         """Row of an earlier run if nothing has changed; errors that may be temporary are tried again."""
         row = self.manifest.rows.get(item.path)
         if row is None or (row.options, row.version) != (self._options, __version__):
@@ -84,7 +84,7 @@ class Batch:
             return None
         return row if row.sha256 == _hash(item) else None
 
-    def _whole(self, row: Row, item: Item) -> bool:
+    def _whole(self, row: Row, item: BatchItem) -> bool:
         """True if every output is unchanged, byte for byte; lengths are compared first."""
         if [one.path for one in row.outputs] != self._shown(item):
             return False
@@ -97,11 +97,11 @@ class Batch:
         code = failed if row.status == "failed_checks" else row.exit_code
         return msgspec.structs.replace(row, exit_code=code)
 
-    def _shown(self, item: Item) -> list[str]:
+    def _shown(self, item: BatchItem) -> list[str]:
         return [escape_text(os.path.relpath(path, self.folder)).replace(os.sep, "/") for _, path in item.outputs]
 
 
-def _hash(item: Item) -> str | None:
+def _hash(item: BatchItem) -> str | None:
     if item.content is not None:
         return hashlib.sha256(item.content).hexdigest()
     if is_url(item.place):
@@ -111,7 +111,7 @@ def _hash(item: Item) -> str | None:
     return hash_of(item.place)
 
 
-def _sweep(items: Sequence[Item]) -> None:
+def _sweep(items: Sequence[BatchItem]) -> None:
     """Remove half-written outputs of a killed run; the lock on the manifest excludes other writers."""
     for folder in {os.path.dirname(path) for item in items for _, path in item.outputs}:
         for part in glob.glob(os.path.join(glob.escape(folder), ".curvcli-*.part")):

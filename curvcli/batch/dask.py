@@ -11,7 +11,7 @@ from typing import Any
 
 from .._version import __version__
 from ..errors import CurvcliError, MissingExtraError, UsageError
-from .model import Engine, Item, Limits, Row, Settings
+from .model import BatchItem, BatchSettings, Engine, Limits, Row
 from .outcome import lost
 from .processes import ONE_THREAD, Worker
 
@@ -50,9 +50,9 @@ def connect(scheduler: str, limits: Limits) -> Iterator[Engine]:
     with ExitStack() as stack:
         client = _client(stack, scheduler)
 
-        def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
+        def engine(items: Sequence[BatchItem], settings: BatchSettings) -> Iterator[Row]:
             run = uuid.uuid4().hex
-            futures: dict[Future, Item] = {
+            futures: dict[Future, BatchItem] = {
                 client.submit(in_worker, item, settings, limits, key=f"curvcli-{run}-{index}", pure=False): item
                 for index, item in enumerate(items)
             }
@@ -105,7 +105,7 @@ def _version() -> str:
     return __version__
 
 
-def _row(future: Any, item: Item, limits: Limits, scheduler: str) -> Row:
+def _row(future: Any, item: BatchItem, limits: Limits, scheduler: str) -> Row:
     from concurrent.futures import CancelledError
 
     from distributed.scheduler import KilledWorker
@@ -122,7 +122,7 @@ def _row(future: Any, item: Item, limits: Limits, scheduler: str) -> Row:
 _mine = threading.local()
 
 
-def in_worker(item: Item, settings: Settings, limits: Limits) -> Row:
+def in_worker(item: BatchItem, settings: BatchSettings, limits: Limits) -> Row:
     """Run one mesh on a Dask worker, in a separate process, so that limits hold and a crash affects no other mesh.
 
     Each thread of the Dask worker keeps its process for the next mesh; the process ends when the Dask worker does.

@@ -10,14 +10,14 @@ from typing import BinaryIO, TypeVar
 
 import msgspec
 
-from .model import Item, Row, Settings
+from .model import BatchItem, BatchSettings, Row
 
 
 class Task(msgspec.Struct, frozen=True):
     """Mesh for a worker, with its settings."""
 
-    item: Item
-    settings: Settings
+    item: BatchItem
+    settings: BatchSettings
 
 
 class Ready(msgspec.Struct, frozen=True):

@@ -19,7 +19,7 @@ MANIFEST, CSV, PARQUET = OWN = ("manifest.jsonl", "summary.csv", "summary.parque
 Status = Literal["ok", "failed_checks", "error", "timeout", "out_of_memory", "crashed"]
 
 
-class Item(msgspec.Struct, frozen=True):
+class BatchItem(msgspec.Struct, frozen=True):
     """One mesh of the plan.
 
     path: as given, fit for one line. place: an absolute path or a URL. outputs: pairs of a table's kind
@@ -32,7 +32,7 @@ class Item(msgspec.Struct, frozen=True):
     content: bytes | None = None
 
 
-class Settings(msgspec.Struct, frozen=True, kw_only=True):
+class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     """Settings that determine the results and outputs of each mesh.
 
     command: as typed; pages show it, and nothing else depends on it. configuration: the file that set some of this,
@@ -100,5 +100,5 @@ class Row(msgspec.Struct, kw_only=True):
     checks: dict[str, Any] = {}
 
 
-Engine = Callable[[Sequence[Item], Settings], Iterator[Row]]
+Engine = Callable[[Sequence[BatchItem], BatchSettings], Iterator[Row]]
 """Function that runs items and yields their rows as they end."""

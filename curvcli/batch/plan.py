@@ -13,14 +13,14 @@ from ..output.registry import format_of, output_formats
 from ..output.tables.columns import TABLES
 from ..support.words import escape_text, suggestion
 from .locations import absolute, expand, is_url, listed, local, parts_of, read_url, root_of
-from .model import OWN, Item
+from .model import OWN, BatchItem
 from .walk import real_path
 
 # Data in the memory of one process: the content is sent to the others.
 _OF_ONE_PROCESS = "memory://"
 
 
-def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Sequence[str]) -> list[Item]:
+def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Sequence[str]) -> list[BatchItem]:
     """Every mesh once: patterns in the order given with the files of each sorted, then the list in its order.
 
     A mesh with several names by links is taken by the first of them.
@@ -59,7 +59,7 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
         again = (
             f"~{names[escape_text(name)]}" if names[escape_text(name)] > 1 else ""
         )  # two names that read alike once escaped
-        items.append(Item(escape_text(name) + again, place, outputs(stem, save), content))
+        items.append(BatchItem(escape_text(name) + again, place, outputs(stem, save), content))
     return items
 
 

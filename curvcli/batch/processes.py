@@ -13,7 +13,7 @@ from queue import SimpleQueue
 
 from .._version import __version__
 from .messages import NO_MESSAGE, Done, Ready, Task, receive, send
-from .model import Engine, Item, Limits, Row, Settings
+from .model import BatchItem, BatchSettings, Engine, Limits, Row
 from .outcome import lost
 
 # One thread per worker: there are as many workers as processors to use.
@@ -42,7 +42,7 @@ class Worker:
             with suppress(OSError):  # it has died already, and reading its answer will fail
                 send(self._process.stdin, self._limits)  # type: ignore[arg-type]
 
-    def run(self, item: Item, settings: Settings) -> Row:
+    def run(self, item: BatchItem, settings: BatchSettings) -> Row:
         """Run one mesh and return its row, even if the process dies."""
         process = self._ready()
         self._late = False
@@ -135,12 +135,12 @@ def here(limits: Limits, jobs: int, soon: int = 0) -> Iterator[Engine]:
             workers.append(Worker(limits))
             idle.put(workers[-1])
 
-    def engine(items: Sequence[Item], settings: Settings) -> Iterator[Row]:
+    def engine(items: Sequence[BatchItem], settings: BatchSettings) -> Iterator[Row]:
         hire(len(items))
         for future in as_completed([pool.submit(do, item, settings) for item in items]):
             yield future.result()
 
-    def do(item: Item, settings: Settings) -> Row:
+    def do(item: BatchItem, settings: BatchSettings) -> Row:
         worker = idle.get()
         try:
             return worker.run(item, settings)

@@ -26,7 +26,7 @@ from ..report.build import pieces
 from ..support.memory import is_out_of_memory, trim_heap
 from ..support.words import escape_text
 from .locations import hash_of, is_url, length_of, read_url
-from .model import Item, Limits, Row, Settings, Written
+from .model import BatchItem, BatchSettings, Limits, Row, Written
 from .outcome import explained
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 _WORST = ("fail", "pass", "not_applicable")
 
 
-def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
+def run(item: BatchItem, settings: BatchSettings, limits: Limits) -> tuple[Row, bool]:
     """Analyse one mesh and write its outputs whole or not at all; return its row, and whether memory ran out."""
     start = time.perf_counter()
     trim_heap()  # of the mesh before
@@ -55,7 +55,7 @@ def run(item: Item, settings: Settings, limits: Limits) -> tuple[Row, bool]:
     return row, spent
 
 
-def _analysed(item: Item, settings: Settings) -> Result:
+def _analysed(item: BatchItem, settings: BatchSettings) -> Result:
     timings: dict[str, float] = {}
     with _timed(timings, "read"):
         surface = _surface(item, settings)
@@ -76,7 +76,7 @@ def _analysed(item: Item, settings: Settings) -> Result:
     return analysis
 
 
-def _surface(item: Item, settings: Settings) -> Surface:
+def _surface(item: BatchItem, settings: BatchSettings) -> Surface:
     """Surface of a file or a URL; messages use the name given."""
     asked: dict[str, Any] = {key: getattr(settings, key) for key in ("weld", "normals", "max_faces", "max_bytes")}
     wanted = settings.input_format
@@ -92,7 +92,7 @@ def _surface(item: Item, settings: Settings) -> Surface:
         raise
 
 
-def _write(analysis: Result, item: Item, settings: Settings) -> None:
+def _write(analysis: Result, item: BatchItem, settings: BatchSettings) -> None:
     paths = [path for kind, path in item.outputs if not kind]
     tables = [(kind, path) for kind, path in item.outputs if kind]
     for folder in {os.path.dirname(path) for _, path in item.outputs}:
@@ -103,7 +103,7 @@ def _write(analysis: Result, item: Item, settings: Settings) -> None:
         analysis.extra_notices += notices
 
 
-def _written(item: Item) -> list[Written]:
+def _written(item: BatchItem) -> list[Written]:
     """Lengths and hashes of the outputs, by which a later run recognises them.
 
     Errors: OutputError for one that was removed already.
@@ -124,7 +124,7 @@ def _make(folder: str) -> None:
         raise OutputError(f"{escape_text(folder)}: cannot be made: {error.strerror or error}") from error
 
 
-def _row(item: Item, analysis: Result) -> Row:
+def _row(item: BatchItem, analysis: Result) -> Row:
     whole = pieces(analysis, analysis.surface.whole)[0]
     checks: dict[str, Any] = {}
     for check in analysis.checks:
@@ -142,7 +142,7 @@ def _row(item: Item, analysis: Result) -> Row:
     )
 
 
-def _hash(item: Item) -> str | None:
+def _hash(item: BatchItem) -> str | None:
     """Hash of a file that could not be analysed, None if it cannot be read."""
     if item.content is not None:
         return hashlib.sha256(item.content).hexdigest()

@@ -12,7 +12,7 @@ from ..mesh.surface import Surface
 from ..mesh.topology import ends_of
 from ..mesh.triangles import EPSILON, cross, dot
 from ..support.arrays import Column, Floats, Index, VectorColumn
-from .base import Outcome, check, exclude_null, rounding
+from .base import IdentityValues, check, exclude_null, rounding
 
 
 def vector_sum(segments: Segments, vectors: Iterable[Column]) -> Floats:
@@ -74,12 +74,14 @@ def moments(surface: Surface, sizes: Column) -> Column:
     bound="(16 + log₂N)ε · Σ over the corners of faces of the extent",
     failure="H_vec of some vertex is wrong, or an edge was taken for boundary that is not.",
 )
-def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> Outcome:
+def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> IdentityValues:
     """Σ η|e| over the boundary = Σ H_p: translations change no area; needs no orientation."""
     segments, _, conormal = _boundary(surface, groups)
     value, expected = vector_sum(groups.vertices, H_vec), vector_sum(segments, conormal)
     tolerance = rounding(surface, groups.vertices.sum(star_extent))
-    outcome = Outcome(value, expected, tolerance, length_exponent=1, detail="Σ H_p against Σ η|e| over the boundary")
+    outcome = IdentityValues(
+        value, expected, tolerance, length_exponent=1, detail="Σ H_p against Σ η|e| over the boundary"
+    )
     exclude_null(outcome, groups, surface, np.isnan(H_vec[0]), "H_vec")
     return outcome
 
@@ -90,14 +92,14 @@ def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_ex
     bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base",
     failure="if force_balance passes: values of H_vec stand at the wrong vertices.",
 )
-def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> Outcome:
+def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> IdentityValues:
     """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
     value = vector_sum(groups.vertices, _cross_offset(surface, H_vec))
     expected = vector_sum(segments, cross(midpoint, conormal))
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, star_extent)))
     # Computed about the base, for the least rounding, then moved to the origin.
-    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p × H_p against Σ m × η|e|")
+    outcome = IdentityValues(value, expected, tolerance, length_exponent=2, detail="Σ p × H_p against Σ m × η|e|")
     outcome.residual = np.sqrt(((value - expected) ** 2).sum(axis=1))
     with np.errstate(over="ignore", invalid="ignore"):  # moments that overflow are null
         outcome.value = value + np.cross(surface.base, vector_sum(groups.vertices, H_vec))
@@ -114,13 +116,13 @@ def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_e
 )
 def position_balance(
     surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, star_extent: Column
-) -> Outcome:
+) -> IdentityValues:
     """Σ m·η|e| over the boundary = Σ p·H_p + 2 area: scaling changes area by its square; needs no orientation."""
     segments, midpoint, conormal = _boundary(surface, groups)
     value = groups.vertices.sum(dot_offset(surface, H_vec)) + 2 * groups.faces.sum(face_area)
     expected = segments.sum(dot(midpoint, conormal))
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, star_extent)))
-    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail="Σ p·H_p + 2 area against Σ m·η|e|")
+    outcome = IdentityValues(value, expected, tolerance, length_exponent=2, detail="Σ p·H_p + 2 area against Σ m·η|e|")
     outcome.residual = np.abs(value - expected)
     with np.errstate(over="ignore", invalid="ignore"):
         outcome.value = value + vector_sum(groups.vertices, H_vec) @ surface.base
@@ -137,7 +139,7 @@ def position_balance(
 )
 def vector_area(
     surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, star_extent: Column
-) -> Outcome:
+) -> IdentityValues:
     """½ Σ a × b over the oriented half-edges that do not cancel = Σ area ν; 0 on closed surfaces."""
     left, times = surface.uncancelled, surface.uncancelled.surplus
     base = surface.base[:, None]
@@ -149,7 +151,7 @@ def vector_area(
     span = 0.5 * np.sqrt(dot(a, a)) * np.sqrt(dot(b, b)) * np.abs(times)
     # The area vector of a needle, in compensated arithmetic, has an error of ε² times a product of its edges.
     needles = EPSILON * groups.vertices.sum(star_extent**2)
-    outcome = Outcome(
+    outcome = IdentityValues(
         value,
         expected,
         rounding(surface, groups.faces.sum(face_area) + segments.sum(span) + needles),

@@ -44,7 +44,7 @@ class Check:
 
 
 @dataclass
-class Outcome:
+class IdentityValues:
     """An identity on every group at once.
 
     value, expected: (G,) or (G, 3). tolerance: (G,). length_exponent: of value, expected, residual and tolerance.
@@ -74,7 +74,7 @@ class CheckRule:
     """
 
     name: str
-    function: Callable[..., Outcome]
+    function: Callable[..., IdentityValues]
     needs: tuple[str, ...]
     statement: str
     gap: str = ""
@@ -103,7 +103,7 @@ class CheckRule:
             self._one(groups, outcome, bool(passed[g]), [side[g] for side in shown], g) for g in range(groups.count)
         ]
 
-    def _one(self, groups: Groups, outcome: Outcome, passed: bool, shown: list[Any], group: int) -> Check:
+    def _one(self, groups: Groups, outcome: IdentityValues, passed: bool, shown: list[Any], group: int) -> Check:
         scope = groups.scope(group)
         for mask, reason in outcome.excluded:
             if mask[group]:
@@ -129,13 +129,13 @@ def _rule_of(module: str, name: str) -> CheckRule:
     return registered[name]
 
 
-def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., Outcome]], CheckRule]:
+def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., IdentityValues]], CheckRule]:
     """Register a check under its function's name; its parameters after surface and groups are the quantities it needs.
 
     The keywords are the fields of `CheckRule` for people; the function's docstring is the identity.
     """
 
-    def register(function: Callable[..., Outcome]) -> CheckRule:
+    def register(function: Callable[..., IdentityValues]) -> CheckRule:
         needs = tuple(inspect.signature(function).parameters)[2:]
         statement = inspect.cleandoc(function.__doc__ or "")
         rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure)
@@ -154,7 +154,7 @@ def rounding(surface: Surface, absolute: Floats) -> Floats:
     return (16 + math.log2(3 * surface.n_faces + surface.n_vertices)) * EPSILON * absolute + lost
 
 
-def exclude_null(outcome: Outcome, groups: Groups, surface: Surface, null: Mask, what: str) -> None:
+def exclude_null(outcome: IdentityValues, groups: Groups, surface: Surface, null: Mask, what: str) -> None:
     """Exclude the groups in which a term of the identity is null at a referenced vertex."""
     where = np.flatnonzero(null & surface.referenced)
     if not len(where):

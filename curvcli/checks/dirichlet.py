@@ -9,7 +9,7 @@ from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
 from ..support.arrays import Column, Flags, VectorColumn
 from ..support.words import format_rounded
-from .base import Outcome, check, exclude_null, rounding
+from .base import IdentityValues, check, exclude_null, rounding
 
 
 @check(
@@ -30,7 +30,7 @@ def dirichlet(
     degenerate: Flags,
     dirichlet_terms: Column,
     dirichlet_gradient_terms: Column,
-) -> Outcome:
+) -> IdentityValues:
     """E(id) = area and ∇_p E(id) = ∇_p area: the identity is harmonic where the surface is discrete minimal."""
     value, expected = groups.faces.sum(dirichlet), groups.faces.sum(face_area)
     tolerance = rounding(surface, groups.faces.sum(dirichlet_terms))
@@ -50,6 +50,6 @@ def dirichlet(
     # Both must hold: the residual includes the gradient's residual, scaled by the ratio of the bounds.
     residual = np.abs(value - expected)
     residual = np.where(worst > 1, np.maximum(residual, tolerance * worst), residual)
-    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)
+    outcome = IdentityValues(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)
     exclude_null(outcome, groups, surface, degenerate, "the cotangent of a degenerate face")
     return outcome

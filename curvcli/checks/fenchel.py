@@ -9,7 +9,7 @@ from ..curves.turning import Turning
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
-from .base import Outcome, check
+from .base import IdentityValues, check
 
 
 @check(
@@ -18,7 +18,7 @@ from .base import Outcome, check
     bound="16ε · vertices of the loop",
     failure="a turning angle of a boundary loop is wrong, or the loop is not walked as it runs.",
 )
-def fenchel(surface: Surface, groups: Groups) -> Outcome:
+def fenchel(surface: Surface, groups: Groups) -> IdentityValues:
     """Every closed boundary curve has total curvature Σψ ≥ 2π, with equality if it is plane and convex."""
     least, vertices = np.full(groups.count, np.inf), np.ones(groups.count)
     number = np.full(groups.count, -1)
@@ -40,7 +40,7 @@ def fenchel(surface: Surface, groups: Groups) -> Outcome:
         least_of = "told of the loop that" if groups.kind == "region" else f"loop {number[g]}"
         return f"total curvature is at least 2π; {least_of} turns least"
 
-    outcome = Outcome(
+    outcome = IdentityValues(
         least,
         expected,
         16 * EPSILON * vertices,

@@ -10,7 +10,7 @@ from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, cross, dot
 from ..support.arrays import Flags, Floats, VectorColumn
 from ..support.words import counted
-from .base import Outcome, check
+from .base import IdentityValues, check
 
 SAMPLES = 64
 
@@ -26,7 +26,7 @@ SAMPLES = 64
 )
 def first_variation(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, A_vec: VectorColumn, degenerate: Flags
-) -> Outcome:
+) -> IdentityValues:
     """∇_p area and A_p = ∇_p volume against central differences of area and volume at sampled vertices."""
     usable = np.flatnonzero(surface.referenced & ~degenerate)
     sample = usable[np.unique(np.linspace(0, len(usable) - 1, SAMPLES).astype(np.int64))] if len(usable) else usable
@@ -43,7 +43,7 @@ def first_variation(
     worst = np.full(surface.n_vertices, np.nan)
     worst[sample] = np.fmax(*strain)  # A_vec is null without an orientation
     residual, moved = groups.vertices.max(worst), groups.vertices.count_true(chosen)
-    outcome = Outcome(
+    outcome = IdentityValues(
         residual,
         np.zeros(groups.count),
         np.ones(groups.count),

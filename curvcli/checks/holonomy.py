@@ -14,7 +14,7 @@ from ..mesh.triangles import EPSILON, cross, dot
 from ..support.arrays import Column, VectorColumn
 from ..support.blocks import for_each, slices
 from ..support.words import counted
-from .base import Outcome, check
+from .base import IdentityValues, check
 
 # Stars with more faces are left out: the walk takes one step per face.
 LARGEST_STAR = 256
@@ -27,7 +27,7 @@ LARGEST_STAR = 256
     failure="K of a vertex is not the rotation that the faces round it make: an angle, or the order of the faces, is "
     "wrong there.",
 )
-def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorColumn) -> Outcome:
+def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorColumn) -> IdentityValues:
     """Carrying a tangent vector counterclockwise round p, across one edge after another, turns it by +K_p (mod 2π)."""
     count = surface.corner_count
     inside = surface.interior & ~np.isnan(K)
@@ -47,7 +47,7 @@ def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorCol
         rest = f"; {counted(int(left_out[g]), 'vertex', 'vertices')} not walked" if left_out[g] else ""
         return f"largest deviation of the rotation from K{rest}"
 
-    outcome = Outcome(residual, np.zeros(groups.count), tolerance, detail=detail)
+    outcome = IdentityValues(residual, np.zeros(groups.count), tolerance, detail=detail)
     outcome.exclude(np.isnan(residual), "no interior vertex whose faces all have an area")
     return outcome
 

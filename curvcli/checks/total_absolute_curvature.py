@@ -10,7 +10,7 @@ from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
 from ..support.arrays import Column
 from ..support.words import format_rounded
-from .base import Outcome, check, exclude_null
+from .base import IdentityValues, check, exclude_null
 
 
 @check(
@@ -20,7 +20,7 @@ from .base import Outcome, check, exclude_null
     failure="the normal cones of K⁺ or K⁻ are too small somewhere: every closed surface has at least this much "
     "curvature.",
 )
-def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K_minus: Column) -> Outcome:
+def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K_minus: Column) -> IdentityValues:
     """ΣK⁺ + ΣK⁻ ≥ 2π(4 − χ) for each closed component, one-sided or not (Chern–Lashof, Kuiper); if equal, tight."""
     counts = count_groups(surface, groups)
     value = groups.vertices.sum(K_plus) + groups.vertices.sum(K_minus)
@@ -34,7 +34,7 @@ def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K
             return "tight: no more curvature than the topology demands"
         return f"{format_rounded(surplus[group])} more than the topology demands"
 
-    outcome = Outcome(value, bound, tolerance, detail=detail, residual=np.maximum(-surplus, 0.0))
+    outcome = IdentityValues(value, bound, tolerance, detail=detail, residual=np.maximum(-surplus, 0.0))
     outcome.exclude(~counts.closed, "the surface is not closed")
     outcome.exclude(~counts.manifold, "the surface is not a manifold")
     exclude_null(outcome, groups, surface, np.isnan(K_plus), "K_plus")

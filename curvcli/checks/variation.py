@@ -11,7 +11,7 @@ from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
 from ..support.arrays import Column, VectorColumn
 from .balance import dot_offset, moments, vector_sum
-from .base import Outcome, check, exclude_null, rounding
+from .base import IdentityValues, check, exclude_null, rounding
 
 
 @check(
@@ -23,7 +23,7 @@ from .base import Outcome, check, exclude_null, rounding
 )
 def area_gradient(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, star_extent: Column
-) -> Outcome:
+) -> IdentityValues:
     """Σ ∇_p area = 0 and Σ p·∇_p area = 2 area: area is invariant under translation and of degree two in scale."""
     value = groups.vertices.sum(dot_offset(surface, area_gradient))
     expected = 2 * groups.faces.sum(face_area)
@@ -42,7 +42,7 @@ def area_gradient(
     over = drift > drift_tolerance
     with np.errstate(divide="ignore", invalid="ignore"):
         residual = np.where(over, np.maximum(residual, tolerance * drift / drift_tolerance), residual)
-    outcome = Outcome(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)
+    outcome = IdentityValues(value, expected, tolerance, length_exponent=2, detail=detail, residual=residual)
     exclude_null(outcome, groups, surface, np.isnan(area_gradient[0]), "area_gradient")
     return outcome
 
@@ -53,7 +53,9 @@ def area_gradient(
     bound="(16 + log₂N)ε · Σ (area of the star + ε · (Σ extents)²) · distance from the base, over the stars",
     failure="A_vec of some vertex or the volume is wrong.",
 )
-def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Column, star_extent: Column) -> Outcome:
+def volume(
+    surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Column, star_extent: Column
+) -> IdentityValues:
     """Σ p·A_p = 3 vol on closed orientable surfaces."""
     counts = count_groups(surface, groups)
     value = groups.vertices.sum(dot_offset(surface, A_vec))
@@ -61,7 +63,9 @@ def volume(surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Col
     # The area vector of a needle, in compensated arithmetic, has an error of ε² times a product of its edges.
     sizes = 3 * star_area + EPSILON * star_extent**2
     tolerance = rounding(surface, groups.vertices.sum(moments(surface, sizes)))
-    outcome = Outcome(value, expected, tolerance, length_exponent=3, detail="Σ p·A_p against three times the volume")
+    outcome = IdentityValues(
+        value, expected, tolerance, length_exponent=3, detail="Σ p·A_p against three times the volume"
+    )
     outcome.exclude(~counts.closed, "the surface is not closed")
     outcome.exclude(~counts.orientable, "the surface has no orientation")
     outcome.exclude(np.isnan(expected), "the oriented faces do not cancel at every edge")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, UsageError
 from ..support.words import counted
-from .sides import Read, analysed_side
+from .sides import LoadedSide, analysed_side
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
@@ -24,7 +24,7 @@ def is_exact(cells: Mapping[str, Any]) -> bool:
 
 def accuracy(
     path: str,
-    exact: Read,
+    exact: LoadedSide,
     conventions: Mapping[str, Any],
     limits: Mapping[str, Any],
     wanted: Callable[[str], bool],

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..analysis.result import Result
     from ..output.appearance import Appearance
     from ..output.atomic import Outputs
-    from ..output.registry import Kind
+    from ..output.registry import OutputKind
     from ..report.model import Report
 
 
@@ -78,10 +78,10 @@ def command(meshes: tuple[str, ...], as_json: bool, get: tuple[str, ...], **sett
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
     stdin_once(meshes)
-    return Run(meshes, as_json, get, **settings).all()
+    return AnalyzeRun(meshes, as_json, get, **settings).all()
 
 
-class Run:
+class AnalyzeRun:
     """One call of `analyze`: check its options before any work, then analyse mesh after mesh."""
 
     def __init__(
@@ -121,7 +121,7 @@ class Run:
         self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]
         check_apart(meshes, self.paths)
         check_apart(meshes, [[path for _, path in each] for each in self.tables])
-        kinds_of_output: tuple[Kind, ...] = ("table", "mesh", "report", "page", "picture")
+        kinds_of_output: tuple[OutputKind, ...] = ("table", "mesh", "report", "page", "picture")
         formats = [
             format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
             for path in self.paths[0]

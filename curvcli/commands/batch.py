@@ -20,7 +20,7 @@ from .talk import say
 
 if TYPE_CHECKING:
     from ..batch.batch import Batch
-    from ..batch.model import Engine, Item, Limits, Settings
+    from ..batch.model import BatchItem, BatchSettings, Engine, Limits
 
 
 @click.command("batch", short_help="Analyse many meshes: workers, timeouts, resume, a summary.")
@@ -136,12 +136,12 @@ def run(
     return worst([row.exit_code for row in batch.rows])
 
 
-def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **conventions: Any) -> Settings:
+def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **conventions: Any) -> BatchSettings:
     """Settings of the analysis and outputs of each mesh.
 
     Errors: UsageError for options that do not fit.
     """
-    from ..batch.model import Settings
+    from ..batch.model import BatchSettings
     from ..output.write import check_appearance
     from ..report.phrases import shell_quoted
 
@@ -150,7 +150,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
         raise UsageError("--save regions: there are none without --regions")
     appearance = options.appearance(conventions)
     check_appearance(appearance, at_scale, [f".{one}" for one in save])
-    return Settings(
+    return BatchSettings(
         passes=tuple(names),
         save=save,
         weld=parse_weld(weld),
@@ -183,7 +183,7 @@ def _processors() -> int:
     return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
-def _work(batch: Batch, engine: Engine, todo: Sequence[Item], quiet: bool) -> None:
+def _work(batch: Batch, engine: Engine, todo: Sequence[BatchItem], quiet: bool) -> None:
     """Run the meshes with a progress bar on a terminal, and print a line for every mesh that fails."""
     if quiet or not sys.stderr.isatty():
         for row in batch.work(engine, todo):

@@ -88,10 +88,10 @@ def command(meshes: tuple[str, ...], **settings: Any) -> int:
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
     stdin_once(meshes)
-    return Run(meshes, **settings).all()
+    return CheckRun(meshes, **settings).all()
 
 
-class Run:
+class CheckRun:
     """One call of `check`: check its options before any work, then mesh after mesh."""
 
     def __init__(

@@ -11,7 +11,7 @@ from ..loading.limits import parse_weld
 from ..report.compare.values import Difference, Tolerance, compare_reports, selector
 from .against_exact import accuracy, is_exact
 from .outputs import one_stdout, print_report
-from .sides import Read, both_sides, kind_of, stored_side
+from .sides import LoadedSide, both_sides, kind_of, stored_side
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
@@ -84,7 +84,11 @@ def compare(
 
 
 def _compare(
-    sides: tuple[Read, Read], tolerance: Tolerance, only: tuple[str, ...], ignore: tuple[str, ...], common: bool
+    sides: tuple[LoadedSide, LoadedSide],
+    tolerance: Tolerance,
+    only: tuple[str, ...],
+    ignore: tuple[str, ...],
+    common: bool,
 ) -> Comparison:
     from ..report.compare.cells import MovedColumn, compare_cells
     from ..report.compare.model import model
@@ -113,7 +117,7 @@ def _compare(
     return model(a.side, b.side, tolerance, compared, found, columns, notes)
 
 
-def _exact(a: str, b: str, limits: dict[str, Any], exact: bool) -> tuple[str, Read | None]:
+def _exact(a: str, b: str, limits: dict[str, Any], exact: bool) -> tuple[str, LoadedSide | None]:
     """A mesh and the table of exact values to compare it with; no table if the two sides are something else.
 
     exact: accept any table as exact values. Errors: UsageError where there is none.

@@ -236,14 +236,14 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
     Errors: UsageError for an invalid size.
     """
     from ..output.appearance import Appearance
-    from ..output.pictures.framing import Look, parse_size
+    from ..output.pictures.options import PictureOptions, parse_size
 
     names = (settings.pop("color_by") or "").split(",")
     columns = tuple(dict.fromkeys(name.strip() for name in names if name.strip()))
     view, up, size, background, edges = (settings.pop(key) for key in ("view", "up", "size", "background", "edges_on"))
     cmap, value_range, quality = (settings.pop(key) for key in ("cmap", "value_range", "quality"))
-    look = Look(view, up, parse_size(size), background, edges)
-    return Appearance(columns, cmap, value_range, precision, quality, look)
+    picture = PictureOptions(view, up, parse_size(size), background, edges)
+    return Appearance(columns, cmap, value_range, precision, quality, picture)
 
 
 def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str], list[str]]:
@@ -252,8 +252,8 @@ def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str]
     Errors: UsageError for an unknown name or an invalid scale.
     """
     from ..curvatures.catalogue import at_scales, defaults, resolve
-    from ..mesh.scale import DEFAULTS, Settings, parse_scales
+    from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 
     scales = parse_scales(settings["rings"], settings["radius"])
     names = resolve(passes or defaults(bool(scales), settings.get("noise") is not None))
-    return names, at_scales(names, Settings(scales or DEFAULTS.scales))
+    return names, at_scales(names, EstimatorSettings(scales or DEFAULTS.scales))

@@ -14,7 +14,7 @@ from ..support.words import suggestion
 from .talk import put
 
 if TYPE_CHECKING:
-    from ..output.registry import Format, Kind
+    from ..output.registry import Format, OutputKind
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def tables_and_reports(
     """
     from ..output.registry import format_of
 
-    def named(path: str, *kinds: Kind) -> Format:
+    def named(path: str, *kinds: OutputKind) -> Format:
         return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)
 
     found = []

@@ -12,7 +12,7 @@ from .outputs import one_stdout
 from .talk import say
 
 if TYPE_CHECKING:
-    from ..output.registry import Kind
+    from ..output.registry import OutputKind
     from ..samples.model import Sample, SampleSpec
 
 _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
@@ -102,7 +102,7 @@ def _write(
     from ..output.atomic import Outputs
     from ..output.registry import format_of
 
-    kinds: tuple[Kind, ...] = ("table", "mesh", "triangles")
+    kinds: tuple[OutputKind, ...] = ("table", "mesh", "triangles")
     formats = [format_of(path, name=stream_format if path == "-" else None, kinds=kinds) for path in outputs]
     with Outputs(outputs, force) as files:
         made = spec(**values).scaled(scale)

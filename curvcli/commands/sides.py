@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass
-class Read:
+class LoadedSide:
     """One side: its report and its cells by column, as far as it has them."""
 
     side: Side
@@ -28,7 +28,7 @@ class Read:
 
 def both_sides(
     a: str, b: str, given: set[str], conventions: dict[str, Any], limits: dict[str, Any], quiet: bool
-) -> tuple[Read, Read]:
+) -> tuple[LoadedSide, LoadedSide]:
     """Read both sides; a mesh is analysed with the settings of a stored side.
 
     given: conventions that override those of a stored side.
@@ -53,7 +53,7 @@ def kind_of(path: str) -> str:
     return "report" if suffix == ".json" else "table" if suffix in SUFFIXES else "mesh"
 
 
-def stored_side(path: str, max_bytes: int | None) -> Read:
+def stored_side(path: str, max_bytes: int | None) -> LoadedSide:
     """Read a stored report or table."""
     from ..loading.tables import read_stored_table
     from ..report.compare.model import Side
@@ -61,11 +61,11 @@ def stored_side(path: str, max_bytes: int | None) -> Read:
 
     if kind_of(path) == "report":
         report = read_report(path, max_bytes=max_bytes)
-        return Read(Side(path, "report", report["input"]["sha256"]), report)
-    return Read(Side(path, "table"), cells=read_stored_table(path, max_bytes=max_bytes))
+        return LoadedSide(Side(path, "report", report["input"]["sha256"]), report)
+    return LoadedSide(Side(path, "table"), cells=read_stored_table(path, max_bytes=max_bytes))
 
 
-def _made_with(side: Read) -> dict[str, Any]:
+def _made_with(side: LoadedSide) -> dict[str, Any]:
     """Passes and conventions that make a mesh comparable with this stored side."""
     from ..curvatures.catalogue import load_passes
     from ..curvatures.registry import passes
@@ -97,7 +97,7 @@ def _made_with(side: Read) -> dict[str, Any]:
 
 def analysed_side(
     path: str, conventions: Mapping[str, Any], limits: Mapping[str, Any], quiet: bool
-) -> tuple[Read, Result]:
+) -> tuple[LoadedSide, Result]:
     """Analyse a mesh: its report, and its columns in the form of a stored table."""
     from ..analysis.request import Request
     from ..analysis.result import Result, compute
@@ -118,12 +118,12 @@ def analysed_side(
         report = build(analysis)
     sha256 = surface.file.sha256 if surface.file is not None else None
     cells = {name: _as_stored(column) for name, column in vertex_table(analysis).items() if name != "vertex"}
-    return Read(Side(path, "mesh", sha256), report, cells), analysis
+    return LoadedSide(Side(path, "mesh", sha256), report, cells), analysis
 
 
 def _check_suffix(path: str) -> None:
     """Errors: InputError for an unknown suffix, with all known ones."""
-    from ..loading.elsewhere import is_url
+    from ..loading.hints import is_url
     from ..loading.recognise import format_of_name
     from ..loading.tables import SUFFIXES
 

@@ -7,7 +7,7 @@ from functools import cache
 from importlib import import_module
 
 from ..errors import UsageError
-from ..mesh.scale import Settings
+from ..mesh.scale import EstimatorSettings
 from ..support.words import suggestion
 from .quantity import AT_SCALE, Quantity
 from .registry import Registry, passes
@@ -91,7 +91,7 @@ def resolve(names: Iterable[str]) -> list[str]:
     return [name for name in public if name in wanted]
 
 
-def at_scales(names: Iterable[str], settings: Settings) -> list[str]:
+def at_scales(names: Iterable[str], settings: EstimatorSettings) -> list[str]:
     """Expand names that depend on the scale, once per scale if there are several: `K_ring@2e`."""
     load_passes()
     if len(settings.scales) == 1:

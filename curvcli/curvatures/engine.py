@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..mesh.neighbourhoods import clear_cache
-from ..mesh.scale import DEFAULTS, Settings
+from ..mesh.scale import DEFAULTS, EstimatorSettings
 from ..mesh.sheets import on_single_fans, sheets
 from ..mesh.surface import Surface
 from ..support.arrays import Array
@@ -29,7 +29,11 @@ def needs(one: Step, area: str) -> list[str]:
 
 
 def arguments(
-    one: Step, surface: Surface, have: Mapping[str, Array], area: str = "barycentric", settings: Settings = DEFAULTS
+    one: Step,
+    surface: Surface,
+    have: Mapping[str, Array],
+    area: str = "barycentric",
+    settings: EstimatorSettings = DEFAULTS,
 ) -> list[Any]:
     """The arguments of a pass."""
     columns = iter(needs(one, area))
@@ -81,7 +85,7 @@ def evaluate(
     names: Iterable[str],
     *,
     area: str = "barycentric",
-    settings: Settings = DEFAULTS,
+    settings: EstimatorSettings = DEFAULTS,
     known: Mapping[str, Array] | None = None,
 ) -> dict[str, Array]:
     """Compute the named quantities; every pass on the way to them runs once, and only the named columns are kept.
@@ -118,7 +122,12 @@ def _shared(passes: Provider, names: Iterable[str], area: str) -> set[str]:
 
 
 def _evaluate(
-    passes: Provider, surface: Surface, names: Iterable[str], area: str, settings: Settings, known: Mapping[str, Array]
+    passes: Provider,
+    surface: Surface,
+    names: Iterable[str],
+    area: str,
+    settings: EstimatorSettings,
+    known: Mapping[str, Array],
 ) -> dict[str, Array]:
     """The known columns, the named ones and those on the way to them, at one scale."""
     have: dict[str, Array] = dict(known)

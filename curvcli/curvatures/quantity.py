@@ -9,12 +9,12 @@ from typing import Any, Literal, Protocol
 from ..mesh.scale import PARAMETERS
 
 Element = Literal["vertex", "edge", "face"]
-Kind = Literal["measure", "density", "angle", "length", "direction", "ratio", "count", "label", "flag"]
+QuantityKind = Literal["measure", "density", "angle", "length", "direction", "ratio", "count", "label", "flag"]
 Parity = Literal["even", "odd"]
 
 # Parameters that are no quantity: the surface, its masks of vertices, and the area chosen by `--area`.
 SURFACE, MASKS, CELL_AREA = "surface", ("interior", "boundary", "referenced", "without_orientation"), "cell_area"
-# `Settings` provides the others; a quantity at one of several scales is named `NAME@SCALE`.
+# `EstimatorSettings` provides the others; a quantity at one of several scales is named `NAME@SCALE`.
 NO_QUANTITIES = (SURFACE, *MASKS, *PARAMETERS)
 AT_SCALE = "@"
 CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
@@ -39,7 +39,7 @@ class Quantity:
     symbol: str = ""
     formula: str = ""
     on: Element = "vertex"
-    kind: Kind = "measure"
+    kind: QuantityKind = "measure"
     length_exponent: int = 0
     mean_degree: int = 0
     parity: Parity = "even"

@@ -124,7 +124,7 @@ def h_sigma(
 
 
 @dataclass(frozen=True)
-class _Sides:
+class _HalfEdges:
     """The half-edges of some edges, each with its face turned so that it runs from corner 0 to corner 1.
 
     corners: (m, 3) of the faces. sign: (m, 3) with which their normals enter the stars of these corners, None for +1.
@@ -145,7 +145,7 @@ class _Sides:
             yield end, np.add.reduceat(np.where(here, at_tail, at_head), self.start, axis=1)
 
 
-def _sides(surface: Surface) -> Iterator[_Sides]:
+def _sides(surface: Surface) -> Iterator[_HalfEdges]:
     """The half-edges of all edges, in blocks of edges."""
     edges, faces, signs = surface.edges, surface.faces.reshape(-1), surface.corner_sign
     for block in slices(len(edges), _EDGES):
@@ -157,10 +157,10 @@ def _sides(surface: Surface) -> Iterator[_Sides]:
         sign = None if signs is None else signs.reshape(-1)[turned].astype(np.float64)
         forward = corners[:, 0] == np.repeat(edges.a[block], edges.valence[block])
         start = edges.start[block] - first
-        yield _Sides(triangles(surface.xyz, corners), corners, sign, forward, start, edges.a[block], edges.b[block])
+        yield _HalfEdges(triangles(surface.xyz, corners), corners, sign, forward, start, edges.a[block], edges.b[block])
 
 
-def _mean_shares(sides: _Sides, along: VectorColumn, up: VectorColumn, h: Column) -> Iterator[Floats]:
+def _mean_shares(sides: _HalfEdges, along: VectorColumn, up: VectorColumn, h: Column) -> Iterator[Floats]:
     """Shares of each face in |**A**_p| ∂h_p/∂q, for p at the half-edge's tail and q at its head, and the reverse.
 
     The face p, q, r adds F = −½ u·(ν × d) to u·**H**_p, u = **H**_p/|**H**_p| and d = r − q. Its normal ν = N/|N|

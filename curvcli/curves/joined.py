@@ -27,7 +27,7 @@ class Joined:
 
 
 @dataclass(frozen=True)
-class _Pieces:
+class _Chains:
     """Runs of vertices in the array of all records, from `first` to `last` both included; closed: of closed records."""
 
     vertex: Rows
@@ -82,7 +82,7 @@ def _staying(vertex: Rows, first: Rows, last: Rows) -> Mask:
     return np.asarray((last > first) & (moved[last] == moved[first]))
 
 
-def _cut(vertex: Rows, first: Rows, last: Rows, branching: Mask) -> _Pieces:
+def _cut(vertex: Rows, first: Rows, last: Rows, branching: Mask) -> _Chains:
     """Cut records at branching vertices in their interior."""
     inner = _within(len(vertex), first, last)
     inner[first] = False
@@ -91,10 +91,10 @@ def _cut(vertex: Rows, first: Rows, last: Rows, branching: Mask) -> _Pieces:
     at = at[~closed[np.searchsorted(first, at, side="right") - 1]]
     order = np.argsort(np.concatenate([first, at]), kind="stable")
     begin, end = np.concatenate([first, at])[order], np.sort(np.concatenate([last, at]))
-    return _Pieces(vertex, begin, end, np.concatenate([closed, np.zeros(len(at), bool)])[order] & (end > begin))
+    return _Chains(vertex, begin, end, np.concatenate([closed, np.zeros(len(at), bool)])[order] & (end > begin))
 
 
-def _chained(pieces: _Pieces, joins: Mask) -> tuple[Rows, Rows, Mask]:
+def _chained(pieces: _Chains, joins: Mask) -> tuple[Rows, Rows, Mask]:
     """Chain pieces to curves: vertices, starts and flags of closed curves. joins: vertices that join two pieces."""
     count = len(pieces.first)
     end = pieces.vertex[np.concatenate([pieces.first, pieces.last])]
@@ -111,7 +111,7 @@ def _chained(pieces: _Pieces, joins: Mask) -> tuple[Rows, Rows, Mask]:
     return _listed(pieces, directed, start, closed)
 
 
-def _listed(pieces: _Pieces, directed: Rows, start: Rows, closed: Mask) -> tuple[Rows, Rows, Mask]:
+def _listed(pieces: _Chains, directed: Rows, start: Rows, closed: Mask) -> tuple[Rows, Rows, Mask]:
     """Concatenate the vertices of directed pieces, each without its last, which is kept at the end of open curves."""
     piece, backward = directed % len(pieces.first), directed >= len(pieces.first)
     sizes = pieces.last[piece] - pieces.first[piece]

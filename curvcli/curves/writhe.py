@@ -111,7 +111,7 @@ def _large(corners: Floats, closed: bool) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class _Pairs:
+class _EdgePairs:
     """Pairs of edges, (m, r, c).
 
     angle: signed solid angle of the directions from the one edge to the other. condition: how much the angle changes
@@ -130,7 +130,7 @@ class _Pairs:
         return tuple(0.0 if part is None else part.sum(axis) for part in kept)
 
 
-def edge_pairs(one: Floats, other: Floats) -> _Pairs:
+def edge_pairs(one: Floats, other: Floats) -> _EdgePairs:
     """Signed solid angle of the directions from each edge of `one` to each of `other`, with its condition.
 
     one: (3, m, r + 1) corners, other: (3, m, c + 1). The sum of the two triangles' half-angles is the argument of
@@ -164,4 +164,4 @@ def edge_pairs(one: Floats, other: Floats) -> _Pairs:
     with np.errstate(divide="ignore", invalid="ignore"):
         # V is known to that and D to about 8 ε |a||b||c|; D moves the angle by V / |D + iV| of that.
         condition = a * (length + 8 * c * (b + d) * np.abs(volume) / size) / size
-    return _Pairs(angle, np.where(size > 0, condition, 0.0), crossing)
+    return _EdgePairs(angle, np.where(size > 0, condition, 0.0), crossing)

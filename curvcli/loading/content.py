@@ -13,7 +13,7 @@ from typing import Any, BinaryIO
 
 from ..errors import InputError
 from ..support.sinks import wait_for
-from .elsewhere import of_folder, of_missing
+from .hints import of_folder, of_missing
 from .stamps import changed, rewritten, stamp, unreadable
 
 _CHUNK = 1 << 24

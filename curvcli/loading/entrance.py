@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from .pieces import Pieces
-from .registry import InputFormat, Wanted
+from .registry import InputFormat, ParserOptions
 
 if TYPE_CHECKING:
     from ..mesh.file import MeshFile
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 class MeshStream(io.RawIOBase):
     """The bytes of a mesh for a loader. It has no name, so trimesh can resolve no reference to another file."""
 
-    def __init__(self, pieces: Pieces, wanted: Wanted) -> None:
-        self.pieces, self.wanted = pieces, wanted
+    def __init__(self, pieces: Pieces, options: ParserOptions) -> None:
+        self.pieces, self.options = pieces, options
 
     def read(self, size: int = -1) -> bytes:
         """The next `size` bytes, or all."""
         return self.pieces.rest() if size < 0 else bytes(self.pieces.take(min(size, self.pieces.left)))
 
 
-def load_through_trimesh(pieces: Pieces, format: InputFormat, wanted: Wanted) -> MeshFile:
+def load_through_trimesh(pieces: Pieces, format: InputFormat, options: ParserOptions) -> MeshFile:
     """The content of a mesh, by the parser of its format, or by trimesh's own loader for a format without one.
 
     A parser of ours is registered under a name of its own: other users of trimesh in this process keep their loaders.
@@ -36,7 +36,7 @@ def load_through_trimesh(pieces: Pieces, format: InputFormat, wanted: Wanted) ->
 
     from ..mesh.file import MeshFile
 
-    parse, stream = format.parse, MeshStream(pieces, wanted)
+    parse, stream = format.parse, MeshStream(pieces, options)
     if parse is not None:
         mesh_loaders.setdefault(f"curvcli-{format.name}", partial(_parsed, parse))
         scene = load_scene(stream, file_type=f"curvcli-{format.name}", process=False)
@@ -63,5 +63,5 @@ def _parsed(parse: Any, file_obj: MeshStream, **_: Any) -> dict[str, Any]:
     import numpy as np
 
     nothing = np.empty((0, 3))
-    metadata = {"curvcli": parse(file_obj.pieces, file_obj.wanted)}
+    metadata = {"curvcli": parse(file_obj.pieces, file_obj.options)}
     return {"vertices": nothing, "faces": nothing.astype(np.int64), "metadata": metadata}

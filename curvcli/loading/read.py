@@ -14,7 +14,7 @@ from .entrance import load_through_trimesh
 from .limits import check_faces, parse_weld
 from .pieces import Pieces
 from .recognise import format_of_name, free_start, recognise
-from .registry import Wanted, input_formats
+from .registry import ParserOptions, input_formats
 
 if TYPE_CHECKING:
     from ..mesh.file import MeshFile
@@ -47,7 +47,9 @@ def read_mesh_file(
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(formats)} are")
     path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
     try:
-        return _read(source, path, kind, weld, max_bytes, Wanted(weld != "none", max_faces, normals == "file", texture))
+        return _read(
+            source, path, kind, weld, max_bytes, ParserOptions(weld != "none", max_faces, normals == "file", texture)
+        )
     except InputError as error:
         place, hint = error.place and escape_text(error.place), error.hint and escape_text(error.hint)
         raise InputError(escape_text(error.problem), path=escape_text(path), place=place, hint=hint) from None
@@ -59,7 +61,7 @@ def _read(
     input_format: str | None,
     weld: str | float,
     max_bytes: int | None,
-    wanted: Wanted,
+    options: ParserOptions,
 ) -> MeshFile:
     import numpy as np
 
@@ -84,14 +86,14 @@ def _read(
         # Not during the import of trimesh: that took longer, by 4 % for 100,000 vertices of OBJ and 11 % of PLY.
         try:
             with np.errstate(invalid="ignore"):  # signalling NaNs; who uses a NaN refuses it
-                mesh = load_through_trimesh(pieces, format, wanted)
+                mesh = load_through_trimesh(pieces, format, options)
                 mesh = mesh if exact else welded(mesh, weld)
         except InputError:
             hashed.check()  # what is wrong with a file that changes is that it changes
             raise
         pieces.clear()
         hashed.clear()
-        check_faces(mesh.polygons, wanted.max_faces)
+        check_faces(mesh.polygons, options.max_faces)
         merged = "exact" if exact else "none" if weld == "auto" else str(weld)
         notices = (*notices, *mesh.notices)
         return replace(mesh, path=escape_text(path), sha256=hashed.sha256(), weld=merged, notices=notices)

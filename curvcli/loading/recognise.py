@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection
 
 from ..errors import InputError, Notice
-from .elsewhere import known_suffix, of_suffix, suffix_of
+from .hints import known_suffix, of_suffix, suffix_of
 from .pieces import Pieces
 from .registry import InputFormat, by_sign, input_formats, suffixes
 

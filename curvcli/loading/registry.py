@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .pieces import Pieces
 
 
-class Wanted(NamedTuple):
+class ParserOptions(NamedTuple):
     """Options of a parser.
 
     merge: merge equal positions, where the format gives each triangle corners of its own. max_faces: refuse more.
@@ -45,7 +45,7 @@ class InputFormat:
 
     name: str
     has_sign: Callable[[Pieces], bool]
-    parse: Callable[[Pieces, Wanted], MeshFile] | None = None
+    parse: Callable[[Pieces, ParserOptions], MeshFile] | None = None
     suffixes: tuple[str, ...] = ()
     weak_sign: bool = False
     any_start: Callable[[bytes, int, bool], bool] | None = None

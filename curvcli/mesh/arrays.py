@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..support.arrays import Index
 from ..support.blocks import LONG, for_each, map_pieces, slices
 
-_Found = TypeVar("_Found", bound=NDArray[Any])
+_Arrays = TypeVar("_Arrays", bound=NDArray[Any])
 
 
 def as_components(points: ArrayLike) -> NDArray[np.float64]:
@@ -57,11 +57,11 @@ def _kept(given: NDArray[Any], kind: type[np.generic]) -> bool:
     return (owner is None or isinstance(owner, bytes)) and given.dtype == kind and given.flags.c_contiguous
 
 
-def frozen(find: Callable[[Any], _Found]) -> Callable[[Any], _Found]:
+def frozen(find: Callable[[Any], _Arrays]) -> Callable[[Any], _Arrays]:
     """Make the array that a function returns read-only, for functions with cached results."""
 
     @wraps(find)
-    def found(owner: Any) -> _Found:
+    def found(owner: Any) -> _Arrays:
         array = find(owner)
         array.setflags(write=False)
         return array

@@ -10,7 +10,7 @@ from typing import Literal
 from ..errors import UsageError
 from ..support.words import pluralize
 
-Kind = Literal["rings", "edges", "length"]
+ScaleUnit = Literal["rings", "edges", "length"]
 
 # Largest number of rings; beyond it a radius describes the same neighbourhood better.
 MOST_RINGS = 100
@@ -24,7 +24,7 @@ class Scale:
     Errors: UsageError for a size that is not positive, or rings that are no whole number.
     """
 
-    kind: Kind
+    kind: ScaleUnit
     size: float
 
     def __post_init__(self) -> None:
@@ -113,7 +113,7 @@ DEFAULT_SCALE = rings(2)
 
 
 @dataclass(frozen=True)
-class Settings:
+class EstimatorSettings:
     """Values of the parameters of passes that are no quantities: `scale`, `normals`, `noise`.
 
     scales: each gives one column per estimator. normals: of the `mesh`, or those of the `file`.
@@ -135,7 +135,7 @@ class Settings:
         return self.scales[0]
 
 
-DEFAULTS = Settings()
+DEFAULTS = EstimatorSettings()
 
-# Parameters of passes that `Settings` provides.
+# Parameters of passes that `EstimatorSettings` provides.
 PARAMETERS = ("scale", "normals", "noise")

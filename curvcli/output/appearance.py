@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .pictures.framing import Look
+from .pictures.options import PictureOptions
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Appearance:
     value_range: str | None = None
     precision: str | int = "shortest"
     quality: bool = False
-    look: Look = field(default_factory=Look)
+    picture: PictureOptions = field(default_factory=PictureOptions)
 
 
 DEFAULT = Appearance()

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..errors import Notice
     from .appearance import Appearance
 
-Kind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
+OutputKind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class Format:
     """
 
     suffix: str
-    kind: Kind
+    kind: OutputKind
     description: str
     place: int = 100
     shows: Callable[[Appearance, list[str]], Iterable[str]] | None = None
@@ -49,7 +49,7 @@ class TableFormat(Format):
     write: takes a stream, columns by name, the precision, and an Event that ends the writing or None.
     """
 
-    kind: Kind = "table"
+    kind: OutputKind = "table"
     write: Callable[[BinaryIO, Mapping[str, Any], str | int, Event | None], None]
 
 
@@ -57,11 +57,12 @@ class TableFormat(Format):
 class MeshFormat(Format):
     """A format of meshes.
 
-    write: takes a stream, points, faces and the keywords of `Parts`; returns notices of what the format cannot hold.
+    write: takes a stream, points, faces and the keywords of `MeshAttributes`; returns notices of
+    what the format cannot hold.
     properties: whether it holds columns. quality: whether the column of the colours may stand there as `quality` too.
     """
 
-    kind: Kind = "mesh"
+    kind: OutputKind = "mesh"
     write: Callable[..., tuple[Notice, ...]]
     properties: bool = False
     quality: bool = False
@@ -79,7 +80,7 @@ class DocumentFormat(Format):
     camera: bool = False
 
 
-_KINDS = get_args(Kind)
+_KINDS = get_args(OutputKind)
 _registered: dict[str, Format] = {}
 
 
@@ -108,17 +109,17 @@ def mesh_color(appearance: Appearance, chosen: list[str]) -> list[str]:
     return [] if name is None else [name]
 
 
-def listed(*kinds: Kind) -> str:
+def listed(*kinds: OutputKind) -> str:
     """The suffixes of these kinds in a sentence."""
     return " ".join(suffixes(kinds))
 
 
-def suffixes(kinds: Collection[Kind] | None = None) -> tuple[str, ...]:
+def suffixes(kinds: Collection[OutputKind] | None = None) -> tuple[str, ...]:
     """Suffixes of these kinds, or of all, in the order of the documentation."""
     return tuple(suffix for suffix, format in output_formats().items() if kinds is None or format.kind in kinds)
 
 
-def format_of(path: str, *, name: str | None = None, kinds: Collection[Kind] | None = None) -> Format:
+def format_of(path: str, *, name: str | None = None, kinds: Collection[OutputKind] | None = None) -> Format:
     """Format of an output: `name` (as in `--format csv`) if given, else by the suffix of the path.
 
     Errors: UsageError for an unknown suffix or name, with the known ones.

@@ -15,7 +15,7 @@ from ..support.memory import require_polars
 from .appearance import DEFAULT, Appearance
 from .atomic import Outputs
 from .coloring import color_needs, colored_quantity, colors
-from .pictures.framing import check_look, parse_view
+from .pictures.options import check_picture_options, parse_view
 from .registry import DocumentFormat, Format, MeshFormat, format_of, output_formats
 from .tables.columns import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
 
@@ -130,12 +130,12 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     suffixes: of the outputs, which may need libraries that are not installed.
     Errors: UsageError, MissingExtraError.
     """
-    parse_view(appearance.look.view)
+    parse_view(appearance.picture.view)
     formats = [format for suffix, format in output_formats().items() if suffix in {*suffixes}]
     pictures = [one for one in formats if isinstance(one, DocumentFormat) and one.kind == "picture" and one.shows]
     if pictures:
         count = max(len(list(one.shows(appearance, chosen))) for one in pictures if one.shows)
-        check_look(appearance.look, count, surface=any(one.camera for one in pictures))
+        check_picture_options(appearance.picture, count, surface=any(one.camera for one in pictures))
     for one in formats:
         one.require()
     if appearance.precision != "shortest":

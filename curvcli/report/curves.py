@@ -18,7 +18,7 @@ from ..mesh.file import Labels
 from ..support.arrays import or_none
 from .model import Input, input_of, vector
 
-Vector = list[float | None] | None
+NullableVector = list[float | None] | None
 
 # Up to this many curves, identities are listed curve by curve; beyond, one line each and those that fail.
 LISTED_CURVES = 100
@@ -49,8 +49,8 @@ class CurveRow(msgspec.Struct):
     signed_total: float | None
     turning_number: int | None
     total_torsion: float | None
-    tangent_change: Vector
-    vector_area: Vector
+    tangent_change: NullableVector
+    vector_area: NullableVector
     holonomy: float | None
     writhe: float | None
     writhe_error: float | None
@@ -59,8 +59,8 @@ class CurveRow(msgspec.Struct):
     twist: float | None
     linking: int | None
     linking_error: float | None
-    force: Vector
-    torque: Vector
+    force: NullableVector
+    torque: NullableVector
     repeated_points: int
 
 

@@ -8,9 +8,9 @@ from collections.abc import Iterable
 from ..analysis.configuration import sentence
 from ..checks.catalogue import identities
 from ..support.words import escape_text
+from .conclusion import conclusion
 from .model import Report
 from .phrases import RESULTS, SHOWN_ROWS, conventions, failing_first, number, shape, verdict
-from .verdict import conclusion
 
 _TOPOLOGY = {
     "vertices": "vertices",

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .model import Columns, FloatArray
+from .model import ExactColumns, FloatArray
 
 
-def principal(first: ArrayLike, second: ArrayLike) -> Columns:
+def principal(first: ArrayLike, second: ArrayLike) -> ExactColumns:
     """Columns from the two principal curvatures, each (V,), in any order."""
     a, b = np.broadcast_arrays(np.asarray(first, np.float64), np.asarray(second, np.float64))
     # Adding 0.0 replaces -0.0 by 0.0.
@@ -27,7 +27,7 @@ def principal(first: ArrayLike, second: ArrayLike) -> Columns:
     }
 
 
-def facing(columns: Columns, normal: ArrayLike) -> Columns:
+def facing(columns: ExactColumns, normal: ArrayLike) -> ExactColumns:
     """The columns with the normal (V, 3), of any length, as `normal_x`, `normal_y`, `normal_z`."""
     vector = np.asarray(normal, np.float64)
     unit = vector / np.linalg.norm(vector, axis=-1, keepdims=True) + 0.0
@@ -43,23 +43,25 @@ def revolved(points: FloatArray, out: ArrayLike, up: ArrayLike) -> FloatArray:
     return np.stack([x * outward, y * outward, np.broadcast_to(np.asarray(up, np.float64), x.shape)], axis=1)
 
 
-def constant(count: int, first: float, second: float) -> Columns:
+def constant(count: int, first: float, second: float) -> ExactColumns:
     """Columns of a surface whose principal curvatures are the same everywhere."""
     return principal(np.full(count, first), np.full(count, second))
 
 
-def one_sided(columns: Columns) -> Columns:
+def one_sided(columns: ExactColumns) -> ExactColumns:
     """Keep the columns that are even in the normal, for surfaces without an outer side."""
     return {name: columns[name] for name in ("h", "K_density")}
 
 
-def of_shape_operator(a: FloatArray, b: FloatArray, d: FloatArray) -> Columns:
+def of_shape_operator(a: FloatArray, b: FloatArray, d: FloatArray) -> ExactColumns:
     """Columns from the shape operator ((a, b), (b, d)) in an orthonormal tangent frame; accurate at umbilics too."""
     middle, gap = (a + d) / 2, np.hypot((a - d) / 2, b)
     return principal(middle + gap, middle - gap) | {"h": np.abs(a + d), "h_signed": a + d, "K_density": a * d - b * b}
 
 
-def of_parametrisation(xu: FloatArray, xv: FloatArray, xuu: FloatArray, xuv: FloatArray, xvv: FloatArray) -> Columns:
+def of_parametrisation(
+    xu: FloatArray, xv: FloatArray, xuu: FloatArray, xuv: FloatArray, xvv: FloatArray
+) -> ExactColumns:
     """Columns from the derivatives of a parametrisation, each (V, 3), with the normal along xu x xv."""
     length_u = np.linalg.norm(xu, axis=1)
     e1 = xu / length_u[:, None]
@@ -75,7 +77,7 @@ def of_parametrisation(xu: FloatArray, xv: FloatArray, xuu: FloatArray, xuv: Flo
     return facing(of_shape_operator(a, b, d), normal)
 
 
-def of_graph(fx: FloatArray, fy: FloatArray, fxx: FloatArray, fxy: FloatArray, fyy: FloatArray) -> Columns:
+def of_graph(fx: FloatArray, fy: FloatArray, fxx: FloatArray, fxy: FloatArray, fyy: FloatArray) -> ExactColumns:
     """Columns of the graph z = f(x, y), normal upward, from the derivatives of f, each (V,)."""
     zero, one = np.zeros_like(fx), np.ones_like(fx)
 
@@ -86,7 +88,7 @@ def of_graph(fx: FloatArray, fy: FloatArray, fxx: FloatArray, fxy: FloatArray, f
     return of_parametrisation(column(one, zero, fx), column(zero, one, fy), *second)
 
 
-def of_quadric(weights: tuple[float, float, float], points: FloatArray) -> Columns:
+def of_quadric(weights: tuple[float, float, float], points: FloatArray) -> ExactColumns:
     """Columns of the ellipsoid w . x^2 = 1 at its points (V, 3), normal outward: S = P diag(2w) P / |gradient|."""
     gradient = 2 * points * np.asarray(weights)
     length = np.linalg.norm(gradient, axis=1)
@@ -101,7 +103,7 @@ def of_quadric(weights: tuple[float, float, float], points: FloatArray) -> Colum
     return facing(of_shape_operator(*entries), normal)
 
 
-def inverted(first: ArrayLike, second: ArrayLike, normal: FloatArray, offset: FloatArray) -> Columns:
+def inverted(first: ArrayLike, second: ArrayLike, normal: FloatArray, offset: FloatArray) -> ExactColumns:
     """Columns of the image d / |d|^2 of a surface, where d = offset (V, 3) leads to it from the centre of inversion.
 
     k -> |d|^2 k - 2 n.d for the normal n, whose image n - 2 (n.d) d / |d|^2 points outward if the centre is outside.

@@ -11,7 +11,7 @@ from .curvature import constant, facing, principal
 from .facts import orientable
 from .grids import disk as rings_disk
 from .grids import looped, rings_for, shaken, split, table, triangles
-from .model import Columns, FloatArray, Sample, demand, demand_positive
+from .model import ExactColumns, FloatArray, Sample, demand, demand_positive
 
 
 @sample(
@@ -100,7 +100,7 @@ def developable_strip(
     return Sample(points, triangles(table(rows, columns)), exact, orientable(loops=1), limit)
 
 
-def _flat(rim: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> Columns:
+def _flat(rim: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> ExactColumns:
     """All curvatures zero; the angle defect too, where it is one."""
     defect: FloatArray = np.where(rim, np.nan, 0.0)
     return facing(constant(len(rim), 0.0, 0.0), [0.0, 0.0, 1.0]) | {"K": defect}

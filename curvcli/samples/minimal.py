@@ -10,7 +10,7 @@ from .catalogue import sample
 from .curvature import facing, of_graph, principal, revolved
 from .facts import orientable
 from .grids import disk, revolve, rings_for, split, table, triangles
-from .model import Columns, FloatArray, Sample, demand, demand_positive
+from .model import ExactColumns, FloatArray, Sample, demand, demand_positive
 
 
 @sample(
@@ -84,7 +84,7 @@ def scherk(*, size: int = 1000, reach: float = 1.2) -> Sample:
     return Sample(points, faces, exact, orientable(loops=1), limit)
 
 
-def _balanced(kappa: FloatArray) -> Columns:
+def _balanced(kappa: FloatArray) -> ExactColumns:
     """Columns of principal curvatures kappa and -kappa."""
     return principal(kappa, -kappa)
 

@@ -17,7 +17,7 @@ from ..support.words import suggestion
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int32]
-Columns = dict[str, FloatArray]
+ExactColumns = dict[str, FloatArray]
 Fact = int | float | bool | None
 
 LENGTH_EXPONENT = {
@@ -49,7 +49,7 @@ class Sample:
 
     points: FloatArray
     faces: IntArray
-    exact: Columns = field(default_factory=dict)
+    exact: ExactColumns = field(default_factory=dict)
     facts: dict[str, Fact] = field(default_factory=dict)
     limit: dict[str, float] = field(default_factory=dict)
     name: str = ""

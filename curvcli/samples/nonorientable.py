@@ -11,7 +11,7 @@ from .catalogue import sample
 from .curvature import inverted, of_parametrisation, one_sided
 from .facts import nonorientable
 from .grids import disk, looped, rings_for, split, table, triangles
-from .model import Columns, FloatArray, Sample, demand, demand_positive
+from .model import ExactColumns, FloatArray, Sample, demand, demand_positive
 
 ComplexArray = NDArray[np.complex128]
 Plane = tuple[FloatArray, FloatArray]
@@ -97,7 +97,9 @@ def _three_ends(w: ComplexArray) -> tuple[FloatArray, ComplexArray, ComplexArray
     return f.real - np.array([0.0, 0.0, 0.5]), first, second
 
 
-def _half_turned(u: FloatArray, radius: float, profile: Plane, slope: Plane, bend: Plane) -> tuple[FloatArray, Columns]:
+def _half_turned(
+    u: FloatArray, radius: float, profile: Plane, slope: Plane, bend: Plane
+) -> tuple[FloatArray, ExactColumns]:
     """A plane curve carried round a circle while its plane turns by u/2, and the curvatures of the surface it sweeps.
 
     profile, slope, bend: the curve and its first two derivatives along v, each two arrays (V,).

@@ -11,8 +11,8 @@ from contextvars import copy_context
 from itertools import chain, islice
 from typing import TypeVar
 
-_Piece = TypeVar("_Piece")
-_Result = TypeVar("_Result")
+_Block = TypeVar("_Block")
+_Return = TypeVar("_Return")
 
 # More threads are no faster: they compete for memory bandwidth and the interpreter lock.
 _THREADS = 2
@@ -25,7 +25,7 @@ def _alone() -> bool:
 
 
 @contextmanager
-def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Result]], Callable[[], _Result]]]:
+def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Return]], Callable[[], _Return]]]:
     """Provide a function that starts work in another thread and returns a function that waits for the result.
 
     worth: False for little work, which is then done in this thread on the first request of its result.
@@ -37,12 +37,12 @@ def background_thread(worth: bool = True) -> Iterator[Callable[[Callable[[], _Re
         yield lambda work: pool.submit(copy_context().run, work).result
 
 
-def for_each(pieces: Iterable[_Piece], work: Callable[[_Piece], None]) -> None:
+def for_each(pieces: Iterable[_Block], work: Callable[[_Block], None]) -> None:
     """Do the work for every piece, in any order; no two pieces may write to the same memory."""
     deque(map_pieces(pieces, work), maxlen=0)
 
 
-def map_pieces(pieces: Iterable[_Piece], work: Callable[[_Piece], _Result]) -> Iterator[_Result]:
+def map_pieces(pieces: Iterable[_Block], work: Callable[[_Block], _Return]) -> Iterator[_Return]:
     """Yield the result of the work for every piece, in their order; no two pieces may write to the same memory.
 
     Pieces are taken from the iterator on demand, so that few of them exist at a time.

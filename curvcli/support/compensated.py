@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..support.arrays import Floats
 
-Triple = tuple[Floats, Floats, Floats] | list[Floats]
+VectorLike = tuple[Floats, Floats, Floats] | list[Floats]
 
 _SPLITTER = 134217729.0  # 2²⁷ + 1 cuts a double into two halves whose products are exact
 
@@ -36,7 +36,7 @@ def _difference_of_products(a: Floats, b: Floats, c: Floats, d: Floats, rest: Fl
     return result
 
 
-def cross_of_edges(p: Triple, q: Triple, r: Triple) -> list[Floats]:
+def cross_of_edges(p: VectorLike, q: VectorLike, r: VectorLike) -> list[Floats]:
     """(q - p) × (r - p) with a relative error near ε² |u| |w| / |u × w|: twice the digits of the plain formula.
 
     p, q, r: three arrays each, the coordinates of the corners.

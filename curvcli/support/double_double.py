@@ -79,10 +79,10 @@ def _normalised(high: Floats, low: Floats) -> DoubleDouble:
     return DoubleDouble(total, low - (total - high))
 
 
-Triple = tuple[DoubleDouble, DoubleDouble, DoubleDouble]
+DoubleDoubleVector = tuple[DoubleDouble, DoubleDouble, DoubleDouble]
 
 
-def corner_products(xyz: Floats, corners: tuple[NDArray[Any], ...]) -> tuple[Triple, DoubleDouble]:
+def corner_products(xyz: Floats, corners: tuple[NDArray[Any], ...]) -> tuple[DoubleDoubleVector, DoubleDouble]:
     """At each corner of triangles the dot product of the two edges that leave it, and twice the area.
 
     xyz: (3, V). corners: three index arrays. The area's relative error is about 1e-30 · (longest edge)² / area.

@@ -20,7 +20,7 @@ from curvcli.batch import outcome, processes
 from curvcli.batch.batch import Batch
 from curvcli.batch.locations import hash_of
 from curvcli.batch.manifest import Manifest
-from curvcli.batch.model import Limits, Row, Settings
+from curvcli.batch.model import BatchSettings, Limits, Row
 from curvcli.batch.plan import plan
 from curvcli.errors import InputError, OutputError, exit_code
 from tests.batch.conftest import ALL, BAD, GOOD, Run
@@ -133,7 +133,7 @@ def test_resume_does_what_changed(scans: Path, run: Run) -> None:
 )
 def test_what_may_go_better_another_time_is_done_again(scans: Path, status: Any, code: int, again: bool) -> None:
     (item,) = plan(["scans/a.obj"], None, "out", [])
-    how = Settings(passes=("K",))
+    how = BatchSettings(passes=("K",))
     row = Row(path=item.path, sha256=hash_of(item.place), options=how.digest(), status=status, exit_code=code)
     with Manifest("out") as manifest:
         manifest.append(row)

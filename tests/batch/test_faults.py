@@ -195,7 +195,7 @@ ONE_AFTER_THE_OTHER = """
 import os, sys
 from curvcli.commands.allocation import keep_memory
 keep_memory()
-from curvcli.batch.model import Item, Limits, Settings
+from curvcli.batch.model import BatchItem, BatchSettings, Limits
 from curvcli.batch.run import run
 from curvcli.support.memory import limit_address_space
 from curvcli.curvatures.catalogue import load_passes
@@ -207,8 +207,8 @@ LIMIT = int(sys.argv[2]) << 20
 limit_address_space(LIMIT)
 for number in range(3):
     outputs = (("", os.path.abspath(f"{number}.ply")),)
-    item = Item(path="m", place=sys.argv[1], outputs=outputs)
-    print(run(item, Settings(passes=("core",)), Limits(None, LIMIT))[0].status)
+    item = BatchItem(path="m", place=sys.argv[1], outputs=outputs)
+    print(run(item, BatchSettings(passes=("core",)), Limits(None, LIMIT))[0].status)
 """
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from curvcli.batch.model import Item, Limits, Settings
+from curvcli.batch.model import BatchItem, BatchSettings, Limits
 from curvcli.batch.plan import saves
 from curvcli.batch.run import run
 from tests.helpers.cli.program import CUBE, DISK, curvcli, environment, wrote
@@ -56,9 +56,9 @@ sys.exit(main())
 
 def test_a_batch_writes_pages_that_name_its_command(tmp_path: Path) -> None:
     outputs = (("", str(tmp_path / "cube.html")), ("", str(tmp_path / "cube.md")))
-    settings = Settings(passes=("K", "A"), save=saves(["html,md"]), command="curvcli batch 'x/*.obj' -o y")
-    row, failure = run(Item(CUBE, CUBE, outputs), settings, Limits())
+    settings = BatchSettings(passes=("K", "A"), save=saves(["html,md"]), command="curvcli batch 'x/*.obj' -o y")
+    row, failure = run(BatchItem(CUBE, CUBE, outputs), settings, Limits())
     assert (row.status, failure) == ("ok", False)
     assert Page((tmp_path / "cube.html").read_bytes()).root.one("code", id="command").text == settings.command
     assert f"```sh\n{settings.command}\n```" in (tmp_path / "cube.md").read_text()
-    assert settings.digest() == Settings(passes=("K", "A"), save=("html", "md")).digest()
+    assert settings.digest() == BatchSettings(passes=("K", "A"), save=("html", "md")).digest()

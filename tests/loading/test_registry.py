@@ -14,7 +14,7 @@ import curvcli
 from curvcli.errors import InputError, MissingExtraError
 from curvcli.loading import entrance, registry
 from curvcli.loading.pieces import Pieces
-from curvcli.loading.registry import InputFormat, Wanted, input_formats, register, suffixes
+from curvcli.loading.registry import InputFormat, ParserOptions, input_formats, register, suffixes
 
 PACKAGE = Path(curvcli.__file__).parent
 OFF = b"OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0.1\n3 2 0 1\n"
@@ -65,16 +65,16 @@ def test_a_missing_library_is_named() -> None:
 
 def test_a_format_without_a_parser_is_read_by_trimesh() -> None:
     plain = InputFormat(name="off", has_sign=never)
-    mesh = entrance.load_through_trimesh(Pieces(OFF), plain, Wanted())
+    mesh = entrance.load_through_trimesh(Pieces(OFF), plain, ParserOptions())
     assert mesh.format == "off"
     np.testing.assert_array_equal(mesh.xyz.T, [[0, 0, 0], [1, 0, 0], [0, 1, 0.1]])
     assert mesh.corners.tolist() == [2, 0, 1]
     for damaged in (OFF.replace(b"0.1", b"x"), b"OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", b"nothing"):
         with pytest.raises(InputError):
-            entrance.load_through_trimesh(Pieces(damaged), plain, Wanted())
+            entrance.load_through_trimesh(Pieces(damaged), plain, ParserOptions())
 
 
 def test_the_stream_gives_its_bytes_once() -> None:
-    stream = entrance.MeshStream(Pieces(b"abcdef"), Wanted())
+    stream = entrance.MeshStream(Pieces(b"abcdef"), ParserOptions())
     assert isinstance(stream, io.RawIOBase)
     assert (stream.read(2), stream.read(), stream.read(1)) == (b"ab", b"cdef", b"")

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 import curvcli
 from curvcli.errors import UsageError
 from curvcli.mesh.neighbourhoods import mean_edge_length, neighbourhoods, radius_of, sizes, sums
-from curvcli.mesh.scale import Scale, Settings, options_of, parse_radius, parse_scales, rings
+from curvcli.mesh.scale import EstimatorSettings, Scale, options_of, parse_radius, parse_scales, rings
 from curvcli.mesh.surface import Surface
 from tests.helpers import irregular, meshes
 
@@ -130,7 +130,7 @@ def test_averaged_measures_are_the_measures_summed_and_divided(name: str, scale:
     surface = meshes.zoo(name).surface()
     found = curvcli.analyze(surface, "K,A,H_vec,A_vec,K_ring,h_ring", **scale)  # type: ignore[arg-type]
     K, A, H, N = (found.vertices[key] for key in ("K", "A", "H_vec", "A_vec"))
-    settings = Settings(parse_scales(scale.get("rings"), scale.get("radius")))
+    settings = EstimatorSettings(parse_scales(scale.get("rings"), scale.get("radius")))
     near = by_hand(surface, settings.scale)
     used = surface.interior & np.isfinite(K) & np.isfinite(H[:, 0])
     for p in range(surface.n_vertices):

@@ -123,7 +123,7 @@ def test_one_mesh_is_let_go_before_the_next_is_read(
 @pytest.mark.parametrize("fails", [False, True])
 def test_a_worker_keeps_nothing_of_a_mesh(fails: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from curvcli.batch import run
-    from curvcli.batch.model import Item, Limits, Settings
+    from curvcli.batch.model import BatchItem, BatchSettings, Limits
 
     alive: list[weakref.ref[Any]] = []
 
@@ -133,7 +133,7 @@ def test_a_worker_keeps_nothing_of_a_mesh(fails: bool, tmp_path: Path, monkeypat
             raise ValueError("a writer failed")
 
     monkeypatch.setattr(run, "_write", spy)
-    item = Item(path="cube.obj", place=str(exact_values.MESHES["cube"]))
-    answer = run.run(item, Settings(passes=("core",)), Limits())
+    item = BatchItem(path="cube.obj", place=str(exact_values.MESHES["cube"]))
+    answer = run.run(item, BatchSettings(passes=("core",)), Limits())
     assert answer[0].status == ("error" if fails else "ok")
     assert [reference() for reference in alive] == [None]

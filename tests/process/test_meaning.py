@@ -18,7 +18,7 @@ from curvcli.mesh.seams import describe_exact_welding
 from curvcli.mesh.surface import Surface
 from curvcli.mesh.welding import weld_exact
 from curvcli.report.build import model
-from curvcli.report.verdict import conclusion
+from curvcli.report.conclusion import conclusion
 from tests.helpers import meshes
 from tests.helpers.meshes import Mesh
 from tests.process.meshes import HOSTILE, cut_apart, scaled, seam, shifted

@@ -21,7 +21,7 @@ _LARGEST_POWER = 1000
 # Initial number of rows, and number of spare rows after packing.
 _ROOM, _SPARE = 24, 16
 
-Places = NDArray[np.intp]
+Positions = NDArray[np.intp]
 
 
 def hull_cone_areas(directions: Floats) -> Floats:
@@ -79,12 +79,12 @@ class _Hulls:
     """
 
     directions: Floats
-    cones: Places
-    who: Places
-    following: Places
+    cones: Positions
+    who: Positions
+    following: Positions
     normal: Floats
 
-    def keep(self, kept: Places) -> None:
+    def keep(self, kept: Positions) -> None:
         """Keep some of the cones."""
         self.directions, self.normal = self.directions[:, :, kept], self.normal[:, :, kept]
         self.cones, self.who, self.following = self.cones[kept], self.who[:, kept], self.following[:, kept]
@@ -104,7 +104,7 @@ class _Hulls:
         normal[:, :most] = np.take_along_axis(self.normal, order[None], axis=1)
         self.who, self.following, self.normal = who, following, normal
 
-    def facet(self, row: Places | int, to: Places, cones: Places) -> None:
+    def facet(self, row: Positions | int, to: Positions, cones: Positions) -> None:
         """Set facets from a row to another row."""
         self.following[row, cones] = to
         a, b = (self.directions[:, self.who[end, cones], cones] for end in (row, to))
@@ -139,7 +139,7 @@ class _Hulls:
         self.facet(row, last, cones)
 
 
-def _extreme(directions: Floats) -> tuple[Places, Places, Places]:
+def _extreme(directions: Floats) -> tuple[Positions, Positions, Positions]:
     """The extreme directions of the pointed ones of n cones: each one's cone, itself, and the next counterclockwise.
 
     The hull of three directions has three facets. A further direction replaces the facets that it sees, which are

@@ -18,16 +18,16 @@ if TYPE_CHECKING:
     from .nesting import Nesting
 
 
-_Found = TypeVar("_Found")
+_Value = TypeVar("_Value")
 
 
-class _CachedOnSurface(Generic[_Found]):
+class _CachedOnSurface(Generic[_Value]):
     """A property of the solids of a surface, cached on the surface to avoid a reference cycle."""
 
-    def __init__(self, find: Callable[[Solids], _Found]) -> None:
+    def __init__(self, find: Callable[[Solids], _Value]) -> None:
         self._of = cached(lambda surface: find(surface.solids))
 
-    def __get__(self, solids: Solids, _: type[Solids]) -> _Found:
+    def __get__(self, solids: Solids, _: type[Solids]) -> _Value:
         return self._of(solids.surface)
 
 

@@ -21,7 +21,7 @@ def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
 
 def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
     """Draw the histograms; a line for each column, with its range."""
-    from ..pictures.framing import import_apart, require_pictures
+    from ..pictures.options import import_apart, require_pictures
 
     require_pictures(False)
     # On another stack: frames that such imports keep refer to those below, and these to the analysis.
@@ -31,7 +31,7 @@ def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: s
     from ..pictures.legend import sentence
 
     columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
-    write_histograms(stream, analysis, columns, appearance.look, appearance.value_range)
+    write_histograms(stream, analysis, columns, appearance.picture, appearance.value_range)
     return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in columns]
 
 

@@ -20,7 +20,7 @@ def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
 
 def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
     """Draw the surface; a line for each column, with its range."""
-    from ..pictures.framing import import_apart, require_pictures
+    from ..pictures.options import import_apart, require_pictures
 
     require_pictures()
     # On another stack: frames that such imports keep refer to those below, and these to the analysis.
@@ -30,7 +30,7 @@ def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: s
     from ..pictures.picture import write_picture
 
     columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
-    write_picture(stream, analysis, columns, appearance.look, appearance.value_range)
+    write_picture(stream, analysis, columns, appearance.picture, appearance.value_range)
     return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in columns]
 
 

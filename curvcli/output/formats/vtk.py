@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def require() -> None:
     """Errors: MissingExtraError without VTK."""
-    from ..pictures.framing import require_vtk
+    from ..pictures.options import require_vtk
 
     require_vtk()
 

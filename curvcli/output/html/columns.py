@@ -34,7 +34,7 @@ class Bar:
 
 
 @dataclass(frozen=True)
-class Column:
+class PageColumn:
     """Column with a value per vertex of the file, NaN where undefined, and its colours."""
 
     painted: Colored
@@ -60,7 +60,7 @@ class Column:
         return None if low is None or high is None else low / 2 + high / 2
 
 
-def columns(analysis: Result, appearance: Appearance, asked: tuple[str, ...]) -> list[Column]:
+def columns(analysis: Result, appearance: Appearance, asked: tuple[str, ...]) -> list[PageColumn]:
     """Every numeric column of the vertex table, in its order.
 
     asked: the columns that `--range LO:HI` applies to; a percentage applies to all.
@@ -75,7 +75,7 @@ def columns(analysis: Result, appearance: Appearance, asked: tuple[str, ...]) ->
         values = np.where(referenced & ~np.ma.getmaskarray(given), np.ma.getdata(given), np.nan).astype(np.float64)
         painted = colored(analysis, name, appearance if shared or name in asked else plain)
         bars, most = histogram(painted.scale.settled(values)[referenced], painted.scale)
-        found.append(Column(painted, painted.unit(analysis.conventions.unit), values, bars, most))
+        found.append(PageColumn(painted, painted.unit(analysis.conventions.unit), values, bars, most))
     return found
 
 

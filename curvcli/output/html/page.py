@@ -13,14 +13,14 @@ import numpy as np
 from ...analysis.configuration import sentence
 from ...checks.catalogue import identities
 from ...report.build import model
+from ...report.conclusion import conclusion, holds
 from ...report.phrases import RESULTS, SHOWN_ROWS, conventions, listed, number, shape, verdict
 from ...report.quantities import unmarked
-from ...report.verdict import conclusion, holds
 from ...support.words import escape_text
 from ..pictures.camera import frame
-from ..pictures.framing import VIEWS, Look, parse_view
+from ..pictures.options import VIEWS, PictureOptions, parse_view
 from .bend import bend, cell, in_cells
-from .columns import Column, columns, hex_color
+from .columns import PageColumn, columns, hex_color
 from .display import Display, simplified, whole
 from .engine import engine
 from .packing import differences, packed, scaled, steps
@@ -113,7 +113,7 @@ def _rendered(template: Template, **values: Any) -> str:
         context.vars.clear()
 
 
-def _first(shown: list[Column], colored: tuple[str, ...]) -> str | None:
+def _first(shown: list[PageColumn], colored: tuple[str, ...]) -> str | None:
     names = [column.name for column in shown]
     return next((name for name in (*colored, *names) if name in names), None)
 
@@ -158,7 +158,7 @@ def _coded(text: str) -> Any:
     return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))
 
 
-def _fitted(analysis: Result, shown: list[Column]) -> tuple[Display, dict[str, Any]]:
+def _fitted(analysis: Result, shown: list[PageColumn]) -> tuple[Display, dict[str, Any]]:
     """Surface, simplified to the limit of the page, and its blocks of data."""
     surface = analysis.surface
     # Deflated and in base64 a float takes about 4.4 bytes, the two faces of a vertex about 14.
@@ -175,7 +175,7 @@ def _fitted(analysis: Result, shown: list[Column]) -> tuple[Display, dict[str, A
         display = simplified(surface, most)
 
 
-def _blocks(analysis: Result, display: Display, shown: list[Column]) -> dict[str, Any]:
+def _blocks(analysis: Result, display: Display, shown: list[PageColumn]) -> dict[str, Any]:
     """Data of the page by name; `meta` has the encoding of numbers."""
     vertices = display.vertices
     meta: dict[str, Any] = {"columns": {}}
@@ -215,16 +215,16 @@ def _normals(analysis: Result, display: Display) -> Any:
     return np.nan_to_num(np.rint(127 * unit / np.where(size > 0, size, 1.0))).astype(np.int8).T
 
 
-def _camera(look: Look) -> list[list[float]]:
+def _camera(picture: PictureOptions) -> list[list[float]]:
     """First direction of view and the axis that points up; `fit` is for pictures."""
-    angles = parse_view(look.view) or VIEWS["iso"]
+    angles = parse_view(picture.view) or VIEWS["iso"]
     _, above, towards = frame(*angles)
-    turned = [[v[0], v[2], -v[1]] if look.up == "y" else list(v) for v in (towards, above)]
+    turned = [[v[0], v[2], -v[1]] if picture.up == "y" else list(v) for v in (towards, above)]
     return [[float(part) for part in vector] for vector in turned]
 
 
 def _data(
-    analysis: Result, appearance: Appearance, display: Display, shown: list[Column], meta: dict[str, Any]
+    analysis: Result, appearance: Appearance, display: Display, shown: list[PageColumn], meta: dict[str, Any]
 ) -> dict[str, Any]:
     """Data for the script of the page."""
     from ...curvatures.registry import passes
@@ -253,7 +253,7 @@ def _data(
         "vertices": len(display.vertices),
         "of": analysis.surface.n_vertices,
         "smooth": len(display.faces) > 5000,
-        "view": _camera(appearance.look),
-        "up": appearance.look.up,
-        "edges": appearance.look.edges,
+        "view": _camera(appearance.picture),
+        "up": appearance.picture.up,
+        "edges": appearance.picture.edges,
     }

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...support.blocks import slices
 from ...support.words import escape_text
-from .parts import Parts
+from .attributes import MeshAttributes
 from .text import ROWS_AT_A_TIME, lines, numbers, without, write_lines
 
 # k / 255 at four digits: enough to read back as the same byte.
@@ -18,7 +18,7 @@ _SHARES = np.round(np.arange(256) / 255, 4)
 
 
 def write_obj(
-    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
+    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[MeshAttributes]
 ) -> None:
     """Write `v x y z` or `v x y z r g b` with colours from 0 to 1, then `f` records counted from 1.
 

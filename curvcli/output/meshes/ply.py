@@ -12,8 +12,8 @@ from ...errors import Notice
 from ...mesh.file import Labels
 from ...support.words import escape_text
 from ..tables.write import Column
+from .attributes import MeshAttributes
 from .names import fitting, one_word, respelt
-from .parts import Parts
 
 _ROWS_AT_A_TIME = 16384  # a block of this size fits in the cache
 _NAMES_TOLD = 256
@@ -31,7 +31,7 @@ _SCALARS = {
 
 
 def write_ply(
-    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
+    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[MeshAttributes]
 ) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) as binary little-endian PLY with `double` positions, in bounded memory.
 

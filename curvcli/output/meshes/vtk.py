@@ -12,8 +12,8 @@ from ...errors import InputError, Notice
 from ...mesh.file import Labels
 from ...support.words import escape_text
 from ..tables.write import Column
+from .attributes import MeshAttributes, Polygons
 from .names import fitting, respelt, xml_attribute, xml_name
-from .parts import Parts, Polygons
 from .ply import meaning
 
 _TRIANGLE, _POLYGON, _QUAD = 5, 7, 9
@@ -22,7 +22,11 @@ _MOST = 8192
 
 
 def write_vtk(
-    stream: BinaryIO, suffix: str, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
+    stream: BinaryIO,
+    suffix: str,
+    points: NDArray[np.float64],
+    faces: NDArray[np.integer[Any]],
+    **parts: Unpack[MeshAttributes],
 ) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) as `.vtp` (polygons) or `.vtu` (unstructured grid), positions in float64.
 

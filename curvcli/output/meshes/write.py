@@ -12,7 +12,7 @@ from ...errors import Notice
 from ...support.words import pluralize
 from ..registry import MeshFormat, output_formats
 from ..tables.write import Column
-from .parts import Parts
+from .attributes import MeshAttributes
 
 _POSITION = ("x", "y", "z")
 # Alpha belongs to the input's colours: a viewer blends it with any others.
@@ -20,7 +20,11 @@ _COLOR = ("red", "green", "blue", "alpha")
 
 
 def write_mesh(
-    stream: BinaryIO, suffix: str, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[Parts]
+    stream: BinaryIO,
+    suffix: str,
+    points: NDArray[np.float64],
+    faces: NDArray[np.integer[Any]],
+    **parts: Unpack[MeshAttributes],
 ) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) in the format of the suffix, with those parts that the format has.
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.surface import Surface
-from .framing import parse_view
+from .options import parse_view
 
 Frame = NDArray[np.float64]
 

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._version import __version__
-from .framing import Look, arrange
 from .legend import Colored, about, mesh_name, sentence, ticks
+from .options import PictureOptions, arrange
 from .panels import draw_title, legend
-from .sheet import LINE, Box, Item, Sheet
+from .sheet import LINE, Box, LegendEntry, Sheet
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
@@ -55,7 +55,7 @@ def distribution(
 
 
 def write_histograms(
-    stream: BinaryIO, analysis: Result, columns: Sequence[Colored], look: Look, value_range: str | None
+    stream: BinaryIO, analysis: Result, columns: Sequence[Colored], options: PictureOptions, value_range: str | None
 ) -> None:
     """Write a panel per column as PNG: bars are shares of the vertices, the line shares of their area.
 
@@ -63,15 +63,15 @@ def write_histograms(
     Each vertex has the weight of its star's area. Labels have a bar each.
     """
     count = max(1, len(columns))
-    across, down, size = arrange(count, look.size, _SINGLE if count == 1 else _PANEL)
-    sheet = Sheet(size, look.background)
+    across, down, size = arrange(count, options.size, _SINGLE if count == 1 else _PANEL)
+    sheet = Sheet(size, options.background)
     font = sheet.font(1.3 * size[0] / across, 1.3 * size[1] / down)
     small, margin = max(0.85 * font, 8.0), round(0.8 * font)
-    keys = [Item("bars: share of the vertices"), Item("share of the area", "line", sheet.ink)]
+    keys = [LegendEntry("bars: share of the vertices"), LegendEntry("share of the area", "line", sheet.ink)]
     if any(one.scale.clipped_below or one.scale.clipped_above for one in columns):
-        keys.append(Item("beyond the range", "square", sheet.pale))
+        keys.append(LegendEntry("beyond the range", "square", sheet.pale))
     words = about(analysis, columns)
-    footer = sheet.flow([*keys, *map(Item, words)], size[0] - 2 * margin, small)
+    footer = sheet.flow([*keys, *map(LegendEntry, words)], size[0] - 2 * margin, small)
     foot = len(footer) * LINE * small + margin
     width, height = size[0] / across, (size[1] - foot) / down
     legends = [sheet.flow(legend(one, value_range), width - 2 * margin, small) for one in columns]

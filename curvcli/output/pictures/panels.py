@@ -6,7 +6,7 @@ import numpy as np
 
 from .legend import Colored, raised, range_text, ticks
 from .render import Color
-from .sheet import Box, Item, Sheet
+from .sheet import Box, LegendEntry, Sheet
 
 
 def draw_title(
@@ -50,14 +50,14 @@ def draw_bar(sheet: Sheet, one: Colored, box: Box, font: float) -> None:
             sheet.triangle(tip, shares((red, green, blue)))
 
 
-def legend(one: Colored, value_range: str | None) -> list[Item]:
+def legend(one: Colored, value_range: str | None) -> list[LegendEntry]:
     """Entries of the legend: range and values outside it, undefined vertices, or labels."""
     scale = one.scale
     if scale.categories:
-        return [Item(f"{c.name} {c.count:,}", "square", shares(c.color)) for c in scale.categories]
-    items = [Item(range_text(scale, value_range))]
+        return [LegendEntry(f"{c.name} {c.count:,}", "square", shares(c.color)) for c in scale.categories]
+    items = [LegendEntry(range_text(scale, value_range))]
     if scale.nulls:
-        items.append(Item(f"undefined {scale.nulls:,}", "square", shares(scale.undefined)))
+        items.append(LegendEntry(f"undefined {scale.nulls:,}", "square", shares(scale.undefined)))
     return items
 
 

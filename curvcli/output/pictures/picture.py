@@ -13,11 +13,11 @@ from ...analysis.resolution import STARS
 from ...support.words import counted
 from ..cells import MOST_FACES, Cells, own_cells
 from .camera import screen
-from .framing import Look, arrange
 from .legend import Colored, about, mesh_name, sentence
+from .options import PictureOptions, arrange
 from .panels import draw_bar, draw_title, legend
 from .render import Color, Lines, Pixels, render
-from .sheet import LINE, Item, Sheet
+from .sheet import LINE, LegendEntry, Sheet
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
@@ -30,7 +30,7 @@ _PLAIN = (200, 200, 200)
 
 
 def write_picture(
-    stream: BinaryIO, analysis: Result, columns: Sequence[Colored], look: Look, value_range: str | None
+    stream: BinaryIO, analysis: Result, columns: Sequence[Colored], options: PictureOptions, value_range: str | None
 ) -> None:
     """Write the surface as PNG, coloured by each of the columns; grey if there are none.
 
@@ -38,8 +38,8 @@ def write_picture(
     Errors: MissingExtraError where the system cannot draw.
     """
     count = max(1, len(columns))
-    across, down, size = arrange(count, look.size, _PANEL if count == 1 else _SMALL_PANEL)
-    sheet = Sheet(size, look.background)
+    across, down, size = arrange(count, options.size, _PANEL if count == 1 else _SMALL_PANEL)
+    sheet = Sheet(size, options.background)
     edge_ink: Color = (0.97, 0.97, 0.97) if sheet.dark else (0.0, 0.0, 0.0)
     page = _Page(sheet, analysis, columns, value_range, across, down, edge_ink)
     surface = analysis.surface
@@ -50,8 +50,8 @@ def write_picture(
         Lines(edges[surface.nonmanifold_edges], _NONMANIFOLD, thick),
     ]
     plain = np.broadcast_to(np.array(_PLAIN, np.uint8), (surface.n_vertices, 3))
-    positions = screen(surface, look.view, look.up)
-    settings: dict[str, Any] = {"background": sheet.background, "mesh_color": _MESH if look.edges else None}
+    positions = screen(surface, options.view, options.up)
+    settings: dict[str, Any] = {"background": sheet.background, "mesh_color": _MESH if options.edges else None}
 
     def draw(
         colorings: Sequence[NDArray[np.uint8]], lines: Sequence[Lines], cells: Cells | None = None
@@ -154,14 +154,14 @@ class _Page:
         row, column = divmod(place, self.across)
         return column * self.panel[0], row * self.panel[1]
 
-    def _footer(self, analysis: Result, edge_ink: Color) -> list[Item]:
+    def _footer(self, analysis: Result, edge_ink: Color) -> list[LegendEntry]:
         surface = analysis.surface
         items = []
         boundary, crowded = (int(mask.sum()) for mask in (surface.boundary_edges, surface.nonmanifold_edges))
         if boundary:
-            items.append(Item(counted(boundary, "boundary edge"), "line", edge_ink))
+            items.append(LegendEntry(counted(boundary, "boundary edge"), "line", edge_ink))
         if crowded:
-            items.append(Item(f"{counted(crowded, 'edge')} of more than two faces", "line", _NONMANIFOLD))
+            items.append(LegendEntry(f"{counted(crowded, 'edge')} of more than two faces", "line", _NONMANIFOLD))
         if any(map(self.cut, self.columns)):
-            items.append(Item("creased: a vertex colours its own cell, flat faces between have the colour of 0"))
-        return [*items, *map(Item, about(analysis, self.columns))]
+            items.append(LegendEntry("creased: a vertex colours its own cell, flat faces between have the colour of 0"))
+        return [*items, *map(LegendEntry, about(analysis, self.columns))]

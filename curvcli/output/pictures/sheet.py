@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...support.words import escape_text
-from .framing import background_rgb
+from .options import background_rgb
 from .render import Color
 
 Box = tuple[float, float, float, float]  # left, top, width, height in pixels, from the upper left corner
@@ -23,7 +23,7 @@ LINE = 1.4  # line height over font size
 
 
 @dataclass(frozen=True)
-class Item:
+class LegendEntry:
     """Entry of a legend: a text, alone or behind a square or a line of a colour."""
 
     text: str
@@ -124,9 +124,9 @@ class Sheet:
 
     # ------------------------------------------------------------------ legends
 
-    def flow(self, items: Iterable[Item], width: float, size: float) -> list[list[tuple[float, Item]]]:
+    def flow(self, items: Iterable[LegendEntry], width: float, size: float) -> list[list[tuple[float, LegendEntry]]]:
         """Lay out entries in lines of at most this width, each with its position."""
-        lines: list[list[tuple[float, Item]]] = [[]]
+        lines: list[list[tuple[float, LegendEntry]]] = [[]]
         at = 0.0
         for item in items:
             for part in self._parts(item, width, size):
@@ -138,7 +138,7 @@ class Sheet:
                 at += needed + 1.6 * size
         return [line for line in lines if line]
 
-    def draw(self, lines: Iterable[list[tuple[float, Item]]], left: float, top: float, size: float) -> None:
+    def draw(self, lines: Iterable[list[tuple[float, LegendEntry]]], left: float, top: float, size: float) -> None:
         """Draw the lines of `flow`."""
         for row, line in enumerate(lines):
             middle = top + (row + 0.5) * LINE * size
@@ -150,26 +150,26 @@ class Sheet:
                     self.rectangle((x, middle - high / 2, wide, high), item.color)
                 self.text(x + self._mark(item, size), middle, item.text, size, color=self.pale)
 
-    def _mark(self, item: Item, size: float) -> float:
+    def _mark(self, item: LegendEntry, size: float) -> float:
         return {"": 0.0, "square": 1.2, "line": 2.0}[item.mark] * size
 
-    def _needs(self, item: Item, size: float) -> float:
+    def _needs(self, item: LegendEntry, size: float) -> float:
         return self._mark(item, size) + self.measure(item.text, size)
 
-    def _parts(self, item: Item, width: float, size: float) -> Iterator[Item]:
+    def _parts(self, item: LegendEntry, width: float, size: float) -> Iterator[LegendEntry]:
         """Entry, split between words, or within a word, where it is too long for a line."""
         text = item.text
-        while text and self._needs(Item(text, item.mark), size) > width:
+        while text and self._needs(LegendEntry(text, item.mark), size) > width:
             less, more = 1, len(text)
             while less < more - 1:
                 fits = (less + more) // 2
-                if self._needs(Item(text[:fits], item.mark), size) <= width:
+                if self._needs(LegendEntry(text[:fits], item.mark), size) <= width:
                     less = fits
                 else:
                     more = fits
             space = text.rfind(" ", 1, less + 1)
             cut = space if space > 0 else less
-            yield Item(text[:cut].rstrip(), item.mark, item.color)
-            text, item = text[cut:].lstrip(), Item("", "", None)
+            yield LegendEntry(text[:cut].rstrip(), item.mark, item.color)
+            text, item = text[cut:].lstrip(), LegendEntry("", "", None)
         if text:
-            yield Item(text, item.mark, item.color)
+            yield LegendEntry(text, item.mark, item.color)

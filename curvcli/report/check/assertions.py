@@ -17,7 +17,7 @@ from ...curvatures.catalogue import at_scales
 from ...curvatures.quantity import AT_SCALE, Quantity
 from ...curvatures.registry import passes
 from ...errors import UsageError
-from ...mesh.scale import Scale, Settings
+from ...mesh.scale import EstimatorSettings, Scale
 from ...support.words import format_number, format_rounded, suggestion
 from ..quantities import public
 from ..statistics import statistics
@@ -118,7 +118,7 @@ def _at(scales: tuple[Scale, ...]) -> list[Quantity]:
     """All public quantities, those that depend on the scale at each of several."""
     if len(scales) < 2:
         return public()
-    return [passes.quantity(name) for name in at_scales((q.name for q in public()), Settings(scales))]
+    return [passes.quantity(name) for name in at_scales((q.name for q in public()), EstimatorSettings(scales))]
 
 
 def parse(text: str, scales: tuple[Scale, ...] = ()) -> Assertion:

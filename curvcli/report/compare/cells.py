@@ -16,7 +16,7 @@ from ...curvatures.registry import passes
 from ...mesh.triangles import EPSILON
 from .values import DEFAULT, EVERYTHING, Difference, Tolerance, noise_of, stem
 
-Cells = NDArray[Any]
+CellArray = NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,8 @@ class MovedColumn:
 
 
 def compare_cells(
-    a: Mapping[str, Cells],
-    b: Mapping[str, Cells],
+    a: Mapping[str, CellArray],
+    b: Mapping[str, CellArray],
     tolerance: Tolerance = DEFAULT,
     wanted: Callable[[str], bool] = EVERYTHING,
     *,
@@ -75,11 +75,11 @@ def compare_cells(
     return moved, lacking, compared
 
 
-def _numeric(column: Cells) -> bool:
+def _numeric(column: CellArray) -> bool:
     return column.dtype.kind in "fiub"
 
 
-def _words(name: str, one: Cells, other: Cells) -> MovedColumn | None:
+def _words(name: str, one: CellArray, other: CellArray) -> MovedColumn | None:
     differ = np.flatnonzero(one.astype(object) != other.astype(object))
     if not len(differ):
         return None
@@ -88,7 +88,7 @@ def _words(name: str, one: Cells, other: Cells) -> MovedColumn | None:
     return MovedColumn(name, len(one), len(differ), row, first, second, None, None)
 
 
-def _moved(name: str, one: Cells, other: Cells, typical: float, noise: float, tolerance: Tolerance) -> Any:
+def _moved(name: str, one: CellArray, other: CellArray, typical: float, noise: float, tolerance: Tolerance) -> Any:
     with np.errstate(invalid="ignore", over="ignore"):
         size = np.maximum(np.maximum(np.abs(one), np.abs(other)), typical)
         allowed = tolerance.allowed(size, noise)
@@ -108,7 +108,7 @@ def _moved(name: str, one: Cells, other: Cells, typical: float, noise: float, to
 class _Scales:
     """Scales for the moves of each column."""
 
-    def __init__(self, a: Mapping[str, Cells], b: Mapping[str, Cells]) -> None:
+    def __init__(self, a: Mapping[str, CellArray], b: Mapping[str, CellArray]) -> None:
         load_passes()
         self._tables = a, b
         self._stems: dict[str, list[str]] = {}
@@ -133,7 +133,7 @@ class _Scales:
         quantity = passes.column(name)
         return noise_of(name, quantity.length_exponent, self.edge) if quantity else 0.0
 
-    def along(self, name: str, one: Cells, other: Cells) -> tuple[Cells, Cells]:
+    def along(self, name: str, one: CellArray, other: CellArray) -> tuple[CellArray, CellArray]:
         """Both columns, lines of b turned to point along those of a: ±d is the same line."""
         quantity, axes = passes.column(name), self._stems[stem(name)]
         if not (quantity and quantity.line) or not all(axis in side for axis in axes for side in self._tables):
@@ -144,7 +144,7 @@ class _Scales:
         return one, np.where(against, -other, other)
 
 
-def _of(function: Callable[[Cells], Any], column: Cells) -> float:
+def _of(function: Callable[[CellArray], Any], column: CellArray) -> float:
     """Statistic of the values that are not null; 0 without values."""
     known = column[~np.isnan(column)] if column.dtype.kind == "f" else column
     return float(function(known)) if len(known) else 0.0

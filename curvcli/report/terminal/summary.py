@@ -10,9 +10,9 @@ from rich.table import Table
 from ...checks.base import Check
 from ...mesh.scale import describe_scales
 from ..build import model
+from ..conclusion import conclusion, holds
 from ..model import Report
 from ..phrases import failing_first, shape
-from ..verdict import conclusion, holds
 from .console import MARKS, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table
 

@@ -10,7 +10,7 @@ import pytest
 
 from curvcli.errors import MissingExtraError, UsageError
 from curvcli.output.pictures.camera import frame, screen
-from curvcli.output.pictures.framing import Look, arrange, check_look, parse_size, parse_view
+from curvcli.output.pictures.options import PictureOptions, arrange, check_picture_options, parse_size, parse_view
 from tests.helpers.meshes import of_sample
 
 
@@ -49,13 +49,13 @@ def test_a_size_that_is_none(size: str) -> None:
 
 def test_a_background_that_is_none() -> None:
     with pytest.raises(UsageError, match=r"^--background blau: no such colour"):
-        check_look(Look(background="blau"))
+        check_picture_options(PictureOptions(background="blau"))
 
 
 def test_what_is_not_installed_is_named_with_the_way_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     with pytest.raises(MissingExtraError, match=r"^pictures need pyvista and matplotlib: `pip install 'curvcli\[pict"):
-        check_look(Look())
+        check_picture_options(PictureOptions())
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from curvcli.errors import UsageError
 from curvcli.output.appearance import Appearance
 from curvcli.output.cells import own_cells
 from curvcli.output.html.page import page as page_bytes
-from curvcli.output.pictures.framing import Look
+from curvcli.output.pictures.options import PictureOptions
 from curvcli.output.write import check_appearance
 from tests.helpers import meshes
 from tests.helpers.cli.program import curvcli as program
@@ -54,7 +54,7 @@ def test_the_flat_side_of_a_cylinder_is_not_painted_as_curved(column: str) -> No
     assert "creased" in {notice.code for notice in analysis.notices}
     scale = colored(analysis, column).scale
     flat = scale.gradient[len(scale.gradient) // 2 if scale.signed else 0]
-    pixels = seen(analysis, color_by=(column,), look=Look(view="top", size=(800, 800)))
+    pixels = seen(analysis, color_by=(column,), picture=PictureOptions(view="top", size=(800, 800)))
     height, width = pixels.shape[:2]
     middle = pixels[height // 2 - 150 : height // 2 + 100, width // 2 - 120 : width // 2 + 120, :3]
     assert near(middle, tuple(int(part) for part in flat), 24).mean() > 0.99
@@ -62,14 +62,14 @@ def test_the_flat_side_of_a_cylinder_is_not_painted_as_curved(column: str) -> No
 
 def test_edges_have_the_colours_of_theta() -> None:
     analysis = analysed(tin())
-    _, told = picture(analysis, color_by=("theta",), look=Look(size=(800, 800)))
+    _, told = picture(analysis, color_by=("theta",), picture=PictureOptions(size=(800, 800)))
     assert told[0].split("theta: ")[1].startswith("−1.571 to 1.571")
     scale = colored(analysis, "theta").scale
     assert len(scale.rgb) == len(analysis.surface.edges)
-    pixels = seen(analysis, color_by=("theta",), look=Look(size=(800, 800)))
+    pixels = seen(analysis, color_by=("theta",), picture=PictureOptions(size=(800, 800)))
     sharp = near(pixels[..., :3], tuple(int(part) for part in scale.gradient[-1]), 20)
     assert 500 < sharp.sum() < 20000
-    both = seen(analysis, color_by=("theta", "h_signed", "kappa_across"), look=Look(size=(1200, 500)))
+    both = seen(analysis, color_by=("theta", "h_signed", "kappa_across"), picture=PictureOptions(size=(1200, 500)))
     assert both.shape[1] == 1200
 
 
@@ -96,7 +96,7 @@ def test_smooth_meshes_are_blended_as_before() -> None:
     torus = meshes.of_sample("torus", size=300)
     analysis = curvcli.analyze((torus.points, torus.faces), "core")
     colors = np.unique(
-        seen(analysis, color_by=("h_signed",), look=Look(size=(600, 600)))[..., :3].reshape(-1, 3), axis=0
+        seen(analysis, color_by=("h_signed",), picture=PictureOptions(size=(600, 600)))[..., :3].reshape(-1, 3), axis=0
     )
     assert len(colors) > 2000
 

@@ -14,7 +14,7 @@ from curvcli.api import Analysis
 from curvcli.output.appearance import Appearance
 from curvcli.output.pictures.camera import screen
 from curvcli.output.pictures.colors import colorize
-from curvcli.output.pictures.framing import Look
+from curvcli.output.pictures.options import PictureOptions
 from curvcli.output.pictures.render import Lines, render
 from curvcli.output.pictures.sheet import Sheet
 from curvcli.output.registry import format_of
@@ -124,7 +124,7 @@ def test_lines_lie_on_the_surface_and_are_hidden_behind_it() -> None:
 
 
 def test_colours_are_those_of_the_column() -> None:
-    pixels = seen(analysed("torus", size=2000), color_by=("K_density",), look=Look(size=(400, 320)))
+    pixels = seen(analysed("torus", size=2000), color_by=("K_density",), picture=PictureOptions(size=(400, 320)))
     surface = pixels[40:220].astype(int)
     red, blue = surface[..., 0] - surface[..., 2] > 40, surface[..., 2] - surface[..., 0] > 40
     assert red.mean() > 0.05
@@ -134,31 +134,33 @@ def test_colours_are_those_of_the_column() -> None:
 
 
 def test_a_closed_surface_has_neither_boundary_nor_null() -> None:
-    pixels = seen(analysed("torus", size=500), look=Look(size=(400, 320)))[40:220]
+    pixels = seen(analysed("torus", size=500), picture=PictureOptions(size=(400, 320)))[40:220]
     assert near(pixels, BLACK, 30).sum() == near(pixels, MAGENTA, 60).sum() == 0
 
 
 def test_boundaries_are_drawn_and_undefined_is_grey() -> None:
     analysis = analysed("disk", size=400)
-    pixels = seen(analysis, color_by=("h",), look=Look(view="top", size=(400, 400)))
+    pixels = seen(analysis, color_by=("h",), picture=PictureOptions(view="top", size=(400, 400)))
     panel = pixels[40:300]
     ring = near(panel, BLACK, 60)
     assert ring.sum() > 400
     assert near(panel, GREY, 12).sum() > 200
     assert near(panel, GREY, 12).sum() < 0.1 * (~near(panel, WHITE, 3)).sum()
-    dark = seen(analysis, color_by=("h",), look=Look(view="top", size=(400, 400), background="black"))
+    dark = seen(analysis, color_by=("h",), picture=PictureOptions(view="top", size=(400, 400), background="black"))
     assert tuple(dark[0, 0]) == BLACK
     assert near(dark[40:300], WHITE, 60).sum() > 400
 
 
 def test_edges_of_more_than_two_faces_are_marked() -> None:
-    pixels = seen(analysed("book"), color_by=("status",), look=Look(view="35,25", size=(400, 320)))
+    pixels = seen(analysed("book"), color_by=("status",), picture=PictureOptions(view="35,25", size=(400, 320)))
     assert near(pixels[40:240], MAGENTA, 70).sum() > 60
 
 
 def test_edges_of_all_faces_on_request() -> None:
     off, on = (
-        seen(analysed("torus", size=100), color_by=("A",), look=Look(size=(400, 320), edges=edges))[40:220].astype(int)
+        seen(analysed("torus", size=100), color_by=("A",), picture=PictureOptions(size=(400, 320), edges=edges))[
+            40:220
+        ].astype(int)
         for edges in (False, True)
     )
     assert (np.abs(off - on).sum(axis=2) > 90).mean() > 0.01
@@ -170,7 +172,7 @@ def test_outliers_do_not_ruin_the_range() -> None:
     spiky = mesh.points + 1e-3 * noise
     spiky[::200] *= 1.2
     analysis = curvcli.analyze((spiky, mesh.faces))
-    png, told = picture(analysis, color_by=("K_density",), look=Look(size=(400, 320)))
+    png, told = picture(analysis, color_by=("K_density",), picture=PictureOptions(size=(400, 320)))
     pixels, about = decoded(png)
     scale = colorize(analysis.vertices["K_density"], signed=True)
     assert scale.high is not None
@@ -218,8 +220,8 @@ def test_no_text_is_cut_off_or_lies_on_another(
     many = size[0] > 500
     columns = ("K", "K_density", "h", "status", "A_vec_x", "willmore_hks") if many else ("K_density",)
     for suffix in (".png", ".hist.png"):
-        look = Look(size=size, background=background)
-        pixels = seen(analysis, f"x{suffix}", color_by=columns, look=look)
+        picture = PictureOptions(size=size, background=background)
+        pixels = seen(analysis, f"x{suffix}", color_by=columns, picture=picture)
         assert pixels.shape == (size[1], size[0], 3)
         assert collisions(sheets[-1]) == []
         assert near(pixels, tuple(round(255 * one) for one in sheets[-1].background), 2)[:, :2].all()  # type: ignore[arg-type]
@@ -231,14 +233,14 @@ def test_a_file_name_of_any_length_and_script_stands_in_the_legend(sheets: list[
         "ply", analysis.surface.xyz, analysis.surface.faces.ravel(), path="/x/" + "名$x_" * 60
     )
     named = curvcli.analyze(curvcli.mesh.surface.Surface(analysis.surface.points, analysis.surface.faces, file=file))
-    seen(named, look=Look(size=(300, 260)))
+    seen(named, picture=PictureOptions(size=(300, 260)))
     assert collisions(sheets[-1]) == []
 
 
 def test_a_surface_without_any_column_is_drawn_plainly() -> None:
     mesh = of_sample("torus", size=100)
     analysis = curvcli.analyze((mesh.points, mesh.faces), ["degree"])
-    png, told = picture(analysis, look=Look(size=(300, 260)))
+    png, told = picture(analysis, picture=PictureOptions(size=(300, 260)))
     assert told == []
     assert near(decoded(png)[0], (200, 200, 200), 60).mean() > 0.15
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ...registry import InputFormat, Wanted, register
+from ...registry import InputFormat, ParserOptions, register
 
 if TYPE_CHECKING:
     from ....mesh.file import MeshFile
@@ -22,11 +22,11 @@ def has_sign(pieces: Pieces) -> bool:
     return b"\nf " in data or b"\rf " in data or b"\nf\t" in data
 
 
-def _parse(pieces: Pieces, wanted: Wanted) -> MeshFile:
+def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:
     from .parse import parse_obj
 
     data = pieces.rest()
-    return parse_obj(data, max_faces=wanted.max_faces, normals=wanted.normals, texture=wanted.texture)
+    return parse_obj(data, max_faces=options.max_faces, normals=options.normals, texture=options.texture)
 
 
 register(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ...registry import InputFormat, Wanted, register
+from ...registry import InputFormat, ParserOptions, register
 
 if TYPE_CHECKING:
     from ....mesh.file import MeshFile
@@ -19,10 +19,10 @@ def has_sign(pieces: Pieces) -> bool:
     return bool(_SIGN.match(pieces.ahead()))
 
 
-def _parse(pieces: Pieces, wanted: Wanted) -> MeshFile:
+def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:
     from .parse import parse_ply
 
-    return parse_ply(pieces, max_faces=wanted.max_faces)
+    return parse_ply(pieces, max_faces=options.max_faces)
 
 
 register(

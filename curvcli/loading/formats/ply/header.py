@@ -40,7 +40,7 @@ TOO_SMALL = "if a count in the header is too small, elements are missing"
 
 
 @dataclass(frozen=True)
-class Property:
+class PlyProperty:
     """A property of an element. length: type of the count of a list, None for a scalar."""
 
     name: str
@@ -54,12 +54,12 @@ class Property:
 
 
 @dataclass(frozen=True)
-class Element:
+class PlyElement:
     """A number of rows with the same properties."""
 
     name: str
     count: int
-    properties: tuple[Property, ...]
+    properties: tuple[PlyProperty, ...]
 
     @property
     def least_bytes(self) -> int:
@@ -71,7 +71,7 @@ class Element:
 class Header:
     """Elements in file order, kind and start of the body, number of header lines, and unknown lines."""
 
-    elements: tuple[Element, ...]
+    elements: tuple[PlyElement, ...]
     ascii: bool
     body: int
     lines: int
@@ -96,7 +96,7 @@ def parse_header(data: bytes) -> Header:
     # Bytes, since str.split would also split at bytes inside multi-byte characters.
     lines = data[magic.end() : end.start() + 1].replace(newline, b"\n").split(b"\n")[:-1]
     order: str | None = None
-    elements: list[tuple[str, int, list[Property]]] = []
+    elements: list[tuple[str, int, list[PlyProperty]]] = []
     unknown: list[int] = []
     for number, line in enumerate(lines, 2):
         words = [decode(word) for word in line.split()]
@@ -118,9 +118,9 @@ def parse_header(data: bytes) -> Header:
                     raise InputError(
                         f"list length of type `{length[:40]}` found, an integer type expected", place=place
                     )
-                elements[-1][2].append(Property(name, _type(kind, order, place), length_type))
+                elements[-1][2].append(PlyProperty(name, _type(kind, order, place), length_type))
             case ["property", str(kind), str(name)] if elements and order:
-                elements[-1][2].append(Property(name, _type(kind, order, place)))
+                elements[-1][2].append(PlyProperty(name, _type(kind, order, place)))
             case [str(keyword), *_] if not elements and keyword not in ("format", "element", "property", "end_header"):
                 unknown.append(number)
             case _:
@@ -133,7 +133,7 @@ def parse_header(data: bytes) -> Header:
     # Old Mac line ends: a line feed after the last one belongs to the data.
     body = end.end() - (newline == b"\r" and end[1] == b"\r\n")
     return Header(
-        tuple(Element(name, count, tuple(properties)) for name, count, properties in elements),
+        tuple(PlyElement(name, count, tuple(properties)) for name, count, properties in elements),
         order == "ascii",
         body,
         len(lines) + 2,

@@ -13,8 +13,8 @@ from ....support.words import pluralize
 from ...corners import checked_corners
 from ...limits import check_faces
 from ...pieces import Pieces
-from .header import CORNERS, HEADER_END, TOO_SMALL, Element, Header, parse_header
-from .rows import Columns, read_binary_rows
+from .header import CORNERS, HEADER_END, TOO_SMALL, Header, PlyElement, parse_header
+from .rows import ElementColumns, read_binary_rows
 from .text import read_text_rows
 
 
@@ -47,7 +47,7 @@ def parse_ply(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     return _mesh(content, by_name, notices)
 
 
-def _corner_property(element: Element) -> str:
+def _corner_property(element: PlyElement) -> str:
     for p in element.properties:
         if p.name in CORNERS and p.length is not None:
             if p.type.kind == "f":
@@ -63,7 +63,7 @@ def _header(pieces: Pieces) -> Header:
     return parse_header(start if complete else pieces.whole())
 
 
-def _read_binary(pieces: Pieces, header: Header, notices: list[Notice]) -> dict[str, Columns]:
+def _read_binary(pieces: Pieces, header: Header, notices: list[Notice]) -> dict[str, ElementColumns]:
     content = {element.name: read_binary_rows(pieces, element) for element in header.elements}
     if rest := pieces.left:
         message = pluralize(rest, "[byte|bytes] after the announced elements, ignored")
@@ -71,7 +71,7 @@ def _read_binary(pieces: Pieces, header: Header, notices: list[Notice]) -> dict[
     return content
 
 
-def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: list[Notice]) -> MeshFile:
+def _mesh(content: dict[str, ElementColumns], elements: dict[str, PlyElement], notices: list[Notice]) -> MeshFile:
     vertex = content["vertex"].scalars
     xyz = content["vertex"].xyz
     if xyz is None:
@@ -104,7 +104,9 @@ def _mesh(content: dict[str, Columns], elements: dict[str, Element], notices: li
     )
 
 
-def _refuse_shifted(sizes: NDArray[np.int64], elements: dict[str, Element], name: str, notices: list[Notice]) -> None:
+def _refuse_shifted(
+    sizes: NDArray[np.int64], elements: dict[str, PlyElement], name: str, notices: list[Notice]
+) -> None:
     """Refuse lists at a wrong offset, caused by a wrong count of an element before them.
 
     A count that is too large ends inside a row of lists, whose last byte is then the length of an empty list; one that

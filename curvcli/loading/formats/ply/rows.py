@@ -12,11 +12,11 @@ from ....errors import InputError
 from ....support.blocks import slices
 from ....support.words import number_of
 from ...pieces import Pieces
-from .header import Element, Property
+from .header import PlyElement, PlyProperty
 
 
 @dataclass
-class Columns:
+class ElementColumns:
     """Scalars by name; lists by name as (length of each row, all items concatenated).
 
     xyz: (3, rows) float64, the scalars x, y, z read as positions.
@@ -27,7 +27,7 @@ class Columns:
     xyz: NDArray[np.float64] | None = None
 
 
-def read_binary_rows(pieces: Pieces, element: Element) -> Columns:
+def read_binary_rows(pieces: Pieces, element: PlyElement) -> ElementColumns:
     """Read the columns of an element; takes exactly its bytes.
 
     Errors: InputError where the data end early or a list length is negative.
@@ -57,16 +57,16 @@ def read_binary_rows(pieces: Pieces, element: Element) -> Columns:
     return columns
 
 
-def empty_columns(element: Element) -> Columns:
+def empty_columns(element: PlyElement) -> ElementColumns:
     """The columns of an element without rows."""
     none = np.empty(0, np.int64)
-    return Columns(
+    return ElementColumns(
         {p.name: np.empty(0, p.native) for p in element.properties if p.length is None},
         {p.name: (none, np.empty(0, p.native)) for p in element.properties if p.length is not None},
     )
 
 
-def _first_lengths(data: bytes, element: Element) -> list[int | None] | None:
+def _first_lengths(data: bytes, element: PlyElement) -> list[int | None] | None:
     """The lengths of the lists of the first row, None for scalars; None if the data end within that row."""
     lengths: list[int | None] = []
     offset = 0
@@ -81,7 +81,7 @@ def _first_lengths(data: bytes, element: Element) -> list[int | None] | None:
     return lengths if offset <= len(data) else None
 
 
-def _row_type(element: Element, lengths: list[int | None]) -> np.dtype[Any]:
+def _row_type(element: PlyElement, lengths: list[int | None]) -> np.dtype[Any]:
     """The dtype of a row with lists of the given lengths; fields by number, since names in the file are arbitrary."""
     fields: list[Any] = []
     for k, (p, length) in enumerate(zip(element.properties, lengths, strict=True)):
@@ -92,9 +92,9 @@ def _row_type(element: Element, lengths: list[int | None]) -> np.dtype[Any]:
     return np.dtype(fields)
 
 
-def _room(element: Element, lengths: list[int | None]) -> Columns:
+def _room(element: PlyElement, lengths: list[int | None]) -> ElementColumns:
     """Empty columns for rows with lists of the given lengths."""
-    columns = Columns()
+    columns = ElementColumns()
     for p, length in zip(element.properties, lengths, strict=True):
         if length is None:
             columns.scalars[p.name] = np.empty(element.count, p.native)
@@ -107,9 +107,11 @@ def _room(element: Element, lengths: list[int | None]) -> Columns:
     return columns
 
 
-def _joined(begin: Columns, rows: int, rest: Columns) -> Columns:
+def _joined(begin: ElementColumns, rows: int, rest: ElementColumns) -> ElementColumns:
     """Join the first rows of some columns with the remaining rows."""
-    joined = Columns({name: np.concatenate((begin.scalars[name][:rows], rest.scalars[name])) for name in rest.scalars})
+    joined = ElementColumns(
+        {name: np.concatenate((begin.scalars[name][:rows], rest.scalars[name])) for name in rest.scalars}
+    )
     for name, (lengths, items) in rest.lists.items():
         before = begin.lists[name][0][:rows]
         kept = begin.lists[name][1][: int(before.sum())]
@@ -117,7 +119,7 @@ def _joined(begin: Columns, rows: int, rest: Columns) -> Columns:
     return joined
 
 
-def _read_mixed(pieces: Pieces, element: Element, first: int) -> Columns:
+def _read_mixed(pieces: Pieces, element: PlyElement, first: int) -> ElementColumns:
     """Read the rows from `first` on, with lists of different lengths.
 
     The offset of a row depends on the row before, so a Python loop finds the offsets; all values are then gathered at
@@ -161,12 +163,12 @@ def _read_mixed(pieces: Pieces, element: Element, first: int) -> Columns:
     return _gather(data, element, np.array(row_starts, np.int64), begins, counts)
 
 
-def _cut_off(element: Element, first: int, row_starts: list[int], size: int) -> InputError:
+def _cut_off(element: PlyElement, first: int, row_starts: list[int], size: int) -> InputError:
     row = first + int(np.searchsorted(row_starts, size, side="right")) - 1
     return InputError("the data end inside a row", place=f"{element.name} {row}")
 
 
-def _reader(data: bytes, p: Property) -> Any:
+def _reader(data: bytes, p: PlyProperty) -> Any:
     assert p.length is not None
     if p.length.itemsize == 1 and p.length.kind == "u":
         return data.__getitem__
@@ -175,9 +177,9 @@ def _reader(data: bytes, p: Property) -> Any:
 
 
 def _gather(
-    data: bytes, element: Element, starts: NDArray[np.int64], begins: list[list[int]], counts: list[list[int]]
-) -> Columns:
-    columns = Columns()
+    data: bytes, element: PlyElement, starts: NDArray[np.int64], begins: list[list[int]], counts: list[list[int]]
+) -> ElementColumns:
+    columns = ElementColumns()
     at, k = starts, 0
     for p in element.properties:
         if p.length is None:
@@ -192,7 +194,7 @@ def _gather(
     return columns
 
 
-def _items(data: bytes, at: NDArray[np.int64], p: Property) -> NDArray[Any]:
+def _items(data: bytes, at: NDArray[np.int64], p: PlyProperty) -> NDArray[Any]:
     """The items that begin at the given bytes."""
     width = p.type.itemsize
     windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), width)

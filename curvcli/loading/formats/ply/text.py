@@ -21,11 +21,11 @@ from ...text import (
     separates,
     tidy,
 )
-from .header import CORNERS, TOO_SMALL, Element, Header, Property
-from .rows import Columns, empty_columns
+from .header import CORNERS, TOO_SMALL, Header, PlyElement, PlyProperty
+from .rows import ElementColumns, empty_columns
 
 
-def read_text_rows(text: bytes, header: Header, notices: list[Notice]) -> dict[str, Columns]:
+def read_text_rows(text: bytes, header: Header, notices: list[Notice]) -> dict[str, ElementColumns]:
     """Read the columns of all elements from the text behind the header.
 
     Errors: InputError with the line of a malformed row.
@@ -46,11 +46,11 @@ def read_text_rows(text: bytes, header: Header, notices: list[Notice]) -> dict[s
 
 
 @dataclass(frozen=True)
-class _Rows:
+class _TextRows:
     """The lines of one element: their text, the element, and the number (from 0) of its first line."""
 
     text: bytes
-    element: Element
+    element: PlyElement
     header_lines: int
     first: int
     numbers: NDArray[np.int64] | None
@@ -60,7 +60,9 @@ class _Rows:
         return f"line {self.header_lines + 1 + int(line if self.numbers is None else self.numbers[line])}"
 
 
-def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[np.int64] | None) -> dict[str, Columns]:
+def _read(
+    body: bytes, header: Header, notices: list[Notice], numbers: NDArray[np.int64] | None
+) -> dict[str, ElementColumns]:
     starts = line_starts(np.frombuffer(body, np.uint8))
     line, content = 0, {}
     for element in header.elements:
@@ -70,7 +72,7 @@ def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[n
             raise InputError(
                 f"{number_of(element.count, 'row')} announced, {len(starts) - 1 - line} found", place=element.name
             )
-        rows = _Rows(body[starts[line] : starts[line + element.count]], element, header.lines, line, numbers)
+        rows = _TextRows(body[starts[line] : starts[line + element.count]], element, header.lines, line, numbers)
         if element.count and element.properties:
             content[element.name] = _same_layout(rows) or _any_layout(rows, notices)
             line += element.count
@@ -83,7 +85,7 @@ def _read(body: bytes, header: Header, notices: list[Notice], numbers: NDArray[n
     return content
 
 
-def _same_layout(rows: _Rows) -> Columns | None:
+def _same_layout(rows: _TextRows) -> ElementColumns | None:
     """Read rows with lists as long as in the first row; None if their lengths differ."""
     words = rows.text[: rows.text.index(b"\n")].split()
     layout, at = [], 0
@@ -102,7 +104,7 @@ def _same_layout(rows: _Rows) -> Columns | None:
     columns = read_columns(rows.text, at, np.int32 if whole else np.float64)
     if columns is None:
         return None
-    read = Columns()
+    read = ElementColumns()
     for p, (at, length) in zip(rows.element.properties, layout, strict=True):
         if p.length is None:
             read.scalars[p.name] = _typed(columns[at], p)
@@ -114,7 +116,7 @@ def _same_layout(rows: _Rows) -> Columns | None:
     return read
 
 
-def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
+def _any_layout(rows: _TextRows, notices: list[Notice]) -> ElementColumns:
     """Read rows of any length."""
     numbers, known = read_tokens(rows.text, np.float64)
     text = np.frombuffer(rows.text, np.uint8)
@@ -129,7 +131,7 @@ def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
         token = rows.text[begin : int(separators[wrong])][:40].decode("utf-8", "backslashreplace")
         raise InputError(f"`{token}` found, a number expected", place=rows.place(row))
     at = np.concatenate(([0], ends[:-1]))
-    read = Columns()
+    read = ElementColumns()
     padded = np.append(numbers, 0.0)
     for p in rows.element.properties:
         if p.length is None:
@@ -158,7 +160,7 @@ def _any_layout(rows: _Rows, notices: list[Notice]) -> Columns:
     return read
 
 
-def _refuse_wrong_lengths(rows: _Rows, read: Columns, extra: NDArray[np.intp]) -> None:
+def _refuse_wrong_lengths(rows: _TextRows, read: ElementColumns, extra: NDArray[np.intp]) -> None:
     """Refuse a face of fewer than 3 corners in a row with more values: the length of its list is wrong."""
     if rows.element.name != "face":
         return
@@ -173,7 +175,7 @@ def _refuse_wrong_lengths(rows: _Rows, read: Columns, extra: NDArray[np.intp]) -
                 raise InputError(problem, place=rows.place(row), hint=hint)
 
 
-def _require(rows: _Rows, enough: NDArray[np.bool_]) -> None:
+def _require(rows: _TextRows, enough: NDArray[np.bool_]) -> None:
     if not enough.all():
         row = int(np.flatnonzero(~enough)[0])
         if rows.numbers is None:
@@ -181,7 +183,7 @@ def _require(rows: _Rows, enough: NDArray[np.bool_]) -> None:
         raise InputError(f"too few values in a row of element `{rows.element.name}`", place=rows.place(row))
 
 
-def _typed(values: NDArray[Any], p: Property) -> NDArray[Any]:
+def _typed(values: NDArray[Any], p: PlyProperty) -> NDArray[Any]:
     """Convert whole numbers to the announced type if they fit; fractions stay doubles."""
     if p.type.kind == "f":
         return values.astype(np.float64, copy=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...registry import InputFormat, Wanted, register
+from ...registry import InputFormat, ParserOptions, register
 from .sign import ASCII_SIGN, has_room, is_binary_stl
 
 if TYPE_CHECKING:
@@ -25,10 +25,10 @@ def any_start(start: bytes, size: int, promised: bool) -> bool:
     return is_binary_stl(start, size) or (promised and has_room(start, size))
 
 
-def _parse(pieces: Pieces, wanted: Wanted) -> MeshFile:
+def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:
     from .parse import parse_stl
 
-    return parse_stl(pieces, weld=wanted.merge, max_faces=wanted.max_faces)
+    return parse_stl(pieces, weld=options.merge, max_faces=options.max_faces)
 
 
 register(

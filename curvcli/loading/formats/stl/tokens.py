@@ -13,7 +13,7 @@ from ....support.words import pluralize
 from ...limits import check_faces
 from ...text import BLANK, NEWLINE, read_tokens, separates
 
-Places = NDArray[np.intp]
+Offsets = NDArray[np.intp]
 
 # `facet normal x y z outer loop`, three times `vertex x y z`, `endloop endfacet`; the normal may be missing.
 _NORMAL, _VERTEX = 4, 4
@@ -65,7 +65,7 @@ class _Tokens:
 
     text: bytes
     data: NDArray[np.uint8]
-    starts: Places
+    starts: Offsets
     ends: NDArray[np.bool_]
 
     @classmethod
@@ -76,7 +76,7 @@ class _Tokens:
         first[1:] &= ends[:-1]
         return cls(text, data, np.flatnonzero(first), ends)
 
-    def are(self, places: Places, word: bytes) -> NDArray[np.bool_]:
+    def are(self, places: Offsets, word: bytes) -> NDArray[np.bool_]:
         """Mask of the tokens equal to a word, in any case."""
         same = places < len(self.starts)
         if not same.any():
@@ -86,7 +86,7 @@ class _Tokens:
             same &= (self.data.take(at + k, mode="clip") | 32) == letter
         return np.asarray(same & self.ends.take(at + len(word), mode="clip"))
 
-    def numbers(self, places: Places) -> NDArray[np.float64]:
+    def numbers(self, places: Offsets) -> NDArray[np.float64]:
         """The tokens at these ascending places as numbers."""
         if not len(places):
             return np.empty(0)
@@ -100,7 +100,7 @@ class _Tokens:
             raise self.unexpected(int(places[np.flatnonzero(~known)[0]]), "")
         return np.asarray(numbers, np.float64)
 
-    def in_name(self, places: Places, end: Places) -> NDArray[np.bool_]:
+    def in_name(self, places: Offsets, end: Offsets) -> NDArray[np.bool_]:
         """Mask of the tokens behind `solid` or `endsolid` on their line, without the end of a facet between them."""
         every = np.arange(len(self.starts))
         named = np.append(-1, every[self.are(every, _NAMES[0]) | self.are(every, _NAMES[1])])
@@ -124,7 +124,7 @@ class _Tokens:
         return InputError(f"`{found}` found, {asked}", place=self.line(offset))
 
 
-def _between(tokens: _Tokens, begin: Places, end: Places) -> list[Notice]:
+def _between(tokens: _Tokens, begin: Offsets, end: Offsets) -> list[Notice]:
     """Yield the notices of the text outside facets: ends and names of solids, and other lines.
 
     Errors: InputError for a part of a facet there.

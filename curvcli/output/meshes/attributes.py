@@ -14,7 +14,7 @@ from ..tables.write import Column
 Polygons = tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]
 
 
-class Parts(TypedDict, total=False):
+class MeshAttributes(TypedDict, total=False):
     """Keywords of every writer; each format writes those that it has.
 
     polygons: the faces of the file, instead of the triangles. vertex_colors: (V, 3) red, green, blue.

@@ -20,7 +20,7 @@ _NUMBER = r"[+-]?\d+(?:\.\d*)?"
 
 
 @dataclass(frozen=True)
-class Look:
+class PictureOptions:
     """Options of pictures.
 
     view: `iso`, `front`, `top`, `fit` (along the direction in which the surface is thinnest) or `AZ,EL` in degrees.
@@ -67,16 +67,16 @@ def parse_size(text: str | None) -> tuple[int, int] | None:
     raise UsageError(f"--size {text}: expected WxH with sides of {SMALLEST} to {LARGEST} pixels, as 1200x900")
 
 
-def check_look(look: Look, panels: int = 1, *, surface: bool = True) -> None:
+def check_picture_options(options: PictureOptions, panels: int = 1, *, surface: bool = True) -> None:
     """Refuse, before any work, a missing library, an unknown colour or view, or too small a size.
 
     surface: true if the surface is drawn, not only histograms.
     Errors: UsageError; MissingExtraError without the libraries that draw.
     """
     require_pictures(surface)
-    parse_view(look.view)
-    background_rgb(look.background)
-    arrange(max(1, panels), look.size, (4, 3))
+    parse_view(options.view)
+    background_rgb(options.background)
+    arrange(max(1, panels), options.size, (4, 3))
 
 
 def arrange(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) -> tuple[int, int, tuple[int, int]]:
