@@ -223,6 +223,13 @@ drawing = together(
         show_default=True,
         help="Background of a picture: a name or #rrggbb.",
     ),
+    click.option(
+        "--dpi",
+        type=click.IntRange(30, 1200),
+        default=300,
+        show_default=True,
+        help="Pixels per inch of the surface in .pdf and .svg, where 100 pixels of --size are an inch.",
+    ),
     click.option("--edges-on", is_flag=True, help="Draw the edges of all faces in a picture."),
     click.option("--quality", is_flag=True, help="Also write the colouring column of .ply as `quality`, for MeshLab."),
 )
@@ -242,7 +249,7 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
     columns = tuple(dict.fromkeys(name.strip() for name in names if name.strip()))
     view, up, size, background, edges = (settings.pop(key) for key in ("view", "up", "size", "background", "edges_on"))
     cmap, value_range, quality = (settings.pop(key) for key in ("cmap", "value_range", "quality"))
-    picture = PictureOptions(view, up, parse_size(size), background, edges)
+    picture = PictureOptions(view, up, parse_size(size), background, edges, settings.pop("dpi"))
     return Appearance(columns, cmap, value_range, precision, quality, picture)
 
 

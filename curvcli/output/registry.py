@@ -73,11 +73,13 @@ class DocumentFormat(Format):
     """A format of reports, pages and pictures.
 
     write: takes a stream, the result, the appearance and the command line or None; returns a line for each column that
-    a picture shows. camera: whether it draws the surface from a view.
+    a picture shows. camera: whether it draws the surface from a view. page: whether that is an image on a page of text
+    and lines.
     """
 
     write: Callable[[BinaryIO, Result, Appearance, str | None], list[str]]
     camera: bool = False
+    page: bool = False
 
 
 _KINDS = get_args(OutputKind)

@@ -135,7 +135,12 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     pictures = [one for one in formats if isinstance(one, DocumentFormat) and one.kind == "picture" and one.shows]
     if pictures:
         count = max(len(list(one.shows(appearance, chosen))) for one in pictures if one.shows)
-        check_picture_options(appearance.picture, count, surface=any(one.camera for one in pictures))
+        check_picture_options(
+            appearance.picture,
+            count,
+            surface=any(one.camera for one in pictures),
+            page=any(one.page for one in pictures),
+        )
     for one in formats:
         one.require()
     if appearance.precision != "shortest":

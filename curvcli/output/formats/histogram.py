@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, BinaryIO
 
 from ..registry import DocumentFormat, register
@@ -19,7 +20,7 @@ def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
     return appearance.color_by or tuple(numbers)
 
 
-def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
+def write_as(suffix: str, stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
     """Draw the histograms; a line for each column, with its range."""
     from ..pictures.options import import_apart, require_pictures
 
@@ -31,17 +32,18 @@ def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: s
     from ..pictures.legend import sentence
 
     columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
-    write_histograms(stream, analysis, columns, appearance.picture, appearance.value_range)
+    write_histograms(stream, analysis, columns, appearance.picture, appearance.value_range, suffix)
     return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in columns]
 
 
-register(
-    DocumentFormat(
-        suffix=".hist.png",
-        kind="picture",
-        description="histogram and area-weighted distribution of columns",
-        place=2,
-        write=write,
-        shows=shows,
+for place, suffix in enumerate((".hist.png", ".hist.pdf", ".hist.svg")):
+    register(
+        DocumentFormat(
+            suffix=suffix,
+            kind="picture",
+            description="histogram and area-weighted distribution of columns",
+            place=20 + place,
+            write=partial(write_as, suffix),
+            shows=shows,
+        )
     )
-)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..._version import __version__
 from .legend import Colored, about, mesh_name, sentence, ticks
 from .options import PictureOptions, arrange
 from .panels import draw_title, legend
@@ -55,16 +54,21 @@ def distribution(
 
 
 def write_histograms(
-    stream: BinaryIO, analysis: Result, columns: Sequence[Colored], options: PictureOptions, value_range: str | None
+    stream: BinaryIO,
+    analysis: Result,
+    columns: Sequence[Colored],
+    options: PictureOptions,
+    value_range: str | None,
+    suffix: str = ".png",
 ) -> None:
-    """Write a panel per column as PNG: bars are shares of the vertices, the line shares of their area.
+    """Write a panel per column: bars are shares of the vertices, the line shares of their area.
 
     The range and the colours are those of the colour map; values beyond it are in a pale bar at each end.
     Each vertex has the weight of its star's area. Labels have a bar each.
     """
     count = max(1, len(columns))
     across, down, size = arrange(count, options.size, _SINGLE if count == 1 else _PANEL)
-    sheet = Sheet(size, options.background)
+    sheet = Sheet(size, options.background, suffix)
     font = sheet.font(1.3 * size[0] / across, 1.3 * size[1] / down)
     small, margin = max(0.85 * font, 8.0), round(0.8 * font)
     keys = [LegendEntry("bars: share of the vertices"), LegendEntry("share of the area", "line", sheet.ink)]
@@ -91,8 +95,7 @@ def write_histograms(
         sheet.draw(legends[place], left, top + height - below - 0.2 * font, small)
     sheet.draw(footer, margin, size[1] - len(footer) * LINE * small - 0.5 * margin, small)
     sentences = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
-    name = f"{mesh_name(analysis)}: histograms"
-    stream.write(sheet.png({"Title": name, "Description": "\n".join(sentences), "Software": f"curvcli {__version__}"}))
+    stream.write(sheet.content(f"{mesh_name(analysis)}: histograms", "\n".join(sentences)))
 
 
 def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Result, box: Box, font: float) -> None:

@@ -15,7 +15,11 @@ from ...errors import MissingExtraError, UsageError
 VIEWS = {"iso": (-45.0, math.degrees(math.asin(1 / math.sqrt(3)))), "front": (-90.0, 0.0), "top": (-90.0, 90.0)}
 FIT = "fit"
 SMALLEST, LARGEST = 200, 8192
+# Pixels of a panel with the surface: of the only one, and of one among several.
+PANEL, SMALL_PANEL = (1200, 900), (800, 680)
 _SMALLEST_PANEL = 180
+# Pixels of the layout per inch of a page.
+PIXELS_PER_INCH = 100
 _NUMBER = r"[+-]?\d+(?:\.\d*)?"
 
 
@@ -25,7 +29,8 @@ class PictureOptions:
 
     view: `iso`, `front`, `top`, `fit` (along the direction in which the surface is thinnest) or `AZ,EL` in degrees.
     up: the axis of the file that points up. size: pixels, None for a size by the number of panels.
-    background: a colour that matplotlib knows. edges: true to draw the edges of all faces.
+    background: a colour that matplotlib knows. edges: true to draw the edges of all faces. dpi: pixels per inch of the
+    surface on a page (.pdf, .svg), where 100 pixels of the size are an inch.
     """
 
     view: str = "iso"
@@ -33,6 +38,12 @@ class PictureOptions:
     size: tuple[int, int] | None = None
     background: str = "white"
     edges: bool = False
+    dpi: int = 300
+
+    @property
+    def finer(self) -> float:
+        """Pixels of the surface on a page per pixel of the layout."""
+        return self.dpi / PIXELS_PER_INCH
 
 
 def parse_view(text: str) -> tuple[float, float] | None:
@@ -67,16 +78,25 @@ def parse_size(text: str | None) -> tuple[int, int] | None:
     raise UsageError(f"--size {text}: expected WxH with sides of {SMALLEST} to {LARGEST} pixels, as 1200x900")
 
 
-def check_picture_options(options: PictureOptions, panels: int = 1, *, surface: bool = True) -> None:
+def check_picture_options(
+    options: PictureOptions, panels: int = 1, *, surface: bool = True, page: bool = False
+) -> None:
     """Refuse, before any work, a missing library, an unknown colour or view, or too small a size.
 
-    surface: true if the surface is drawn, not only histograms.
+    surface: true if the surface is drawn, not only histograms. page: true if it is drawn at `options.dpi`.
     Errors: UsageError; MissingExtraError without the libraries that draw.
     """
     require_pictures(surface)
     parse_view(options.view)
     background_rgb(options.background)
-    arrange(max(1, panels), options.size, (4, 3))
+    count = max(1, panels)
+    across, down, size = arrange(count, options.size, PANEL if count == 1 else SMALL_PANEL)
+    wide = options.finer * max(size[0] / across, size[1] / down)
+    if page and wide > LARGEST:
+        raise UsageError(
+            f"--dpi {options.dpi}: the surface would be {wide:,.0f} pixels long, at most {LARGEST:,} can be drawn; "
+            f"--dpi {int(options.dpi * LARGEST / wide)} is the most here"
+        )
 
 
 def arrange(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) -> tuple[int, int, tuple[int, int]]:

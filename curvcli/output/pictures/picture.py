@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..._version import __version__
 from ...analysis.resolution import STARS
 from ...support.words import counted
 from ..cells import MOST_FACES, Cells, own_cells
 from .camera import screen
 from .legend import Colored, about, mesh_name, sentence
-from .options import PictureOptions, arrange
+from .options import PANEL, SMALL_PANEL, PictureOptions, arrange
 from .panels import draw_bar, draw_title, legend
 from .render import Color, Lines, Pixels, render
 from .sheet import LINE, LegendEntry, Sheet
@@ -22,29 +21,35 @@ from .sheet import LINE, LegendEntry, Sheet
 if TYPE_CHECKING:
     from ...analysis.result import Result
 
-_PANEL = (1200, 900)
-_SMALL_PANEL = (800, 680)
 _NONMANIFOLD: Color = (0.9, 0.0, 0.47)
 _MESH: Color = (0.1, 0.1, 0.1)
 _PLAIN = (200, 200, 200)
 
 
 def write_picture(
-    stream: BinaryIO, analysis: Result, columns: Sequence[Colored], options: PictureOptions, value_range: str | None
+    stream: BinaryIO,
+    analysis: Result,
+    columns: Sequence[Colored],
+    options: PictureOptions,
+    value_range: str | None,
+    suffix: str = ".png",
 ) -> None:
-    """Write the surface as PNG, coloured by each of the columns; grey if there are none.
+    """Write the surface, coloured by each of the columns; grey if there are none.
 
+    On a page (.pdf, .svg) the surface is an image of `options.dpi`, everything else is text and lines.
     Boundary edges and edges of more than two faces are drawn as lines; undefined values are grey.
     Errors: MissingExtraError where the system cannot draw.
     """
     count = max(1, len(columns))
-    across, down, size = arrange(count, options.size, _PANEL if count == 1 else _SMALL_PANEL)
-    sheet = Sheet(size, options.background)
+    across, down, size = arrange(count, options.size, PANEL if count == 1 else SMALL_PANEL)
+    sheet = Sheet(size, options.background, suffix)
     edge_ink: Color = (0.97, 0.97, 0.97) if sheet.dark else (0.0, 0.0, 0.0)
     page = _Page(sheet, analysis, columns, value_range, across, down, edge_ink)
     surface = analysis.surface
     edges = np.stack([surface.edges.a, surface.edges.b], axis=1)
-    thick = max(1.5, min(page.picture) / 260)
+    finer = options.finer if sheet.vector else 1.0
+    pixels_of = round(finer * page.picture[0]), round(finer * page.picture[1])
+    thick = finer * max(1.5, min(page.picture) / 260)
     lines = [
         Lines(edges[surface.boundary_edges], edge_ink, thick),
         Lines(edges[surface.nonmanifold_edges], _NONMANIFOLD, thick),
@@ -56,7 +61,7 @@ def write_picture(
     def draw(
         colorings: Sequence[NDArray[np.uint8]], lines: Sequence[Lines], cells: Cells | None = None
     ) -> list[Pixels]:
-        return render(positions, surface.faces, colorings, page.picture, lines=lines, cells=cells, **settings)
+        return render(positions, surface.faces, colorings, pixels_of, lines=lines, cells=cells, **settings)
 
     blended = [place for place, one in enumerate(columns) if not page.cut(one) and one.quantity.on == "vertex"]
     pictures = draw([columns[place].scale.rgb for place in blended], lines)
@@ -71,12 +76,10 @@ def write_picture(
             cells = own_cells(positions, surface.faces, one.scale.rgb, page.flat(one))
             shown[place] = draw([], lines, cells)[0]
     for place, pixels in shown.items() if columns else enumerate(draw([plain], lines)):
-        sheet.image(pixels, *page.corner(place))
+        sheet.image(pixels, page.box(place))
     page.draw()
     sentences = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
-    stream.write(
-        sheet.png({"Title": page.name, "Description": "\n".join(sentences), "Software": f"curvcli {__version__}"})
-    )
+    stream.write(sheet.content(page.name, "\n".join(sentences)))
 
 
 class _Page:
@@ -129,10 +132,10 @@ class _Page:
         different: NDArray[np.bool_] = (one.scale.rgb != np.array(self.flat(one), np.uint8)).any(axis=1)
         return different
 
-    def corner(self, place: int) -> tuple[int, int]:
-        """The upper left pixel of the picture in a panel."""
+    def box(self, place: int) -> tuple[int, int, int, int]:
+        """Left, top, width and height in pixels of the picture in a panel."""
         left, top = self._origin(place)
-        return left + self.margin, int(top + self.above)
+        return left + self.margin, int(top + self.above), *self.picture
 
     def draw(self) -> None:
         """Titles, colour bars and legends of all panels, and the line at the foot."""

@@ -1,18 +1,19 @@
-"""Sheet of pixels: texts, patches and images at exact positions, so that they are not cut off and do not overlap."""
+"""Sheet of a picture: texts, patches and images at exact positions, so that they are not cut off and do not overlap."""
 
 from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..._version import __version__
 from ...support.words import escape_text
-from .options import background_rgb
+from .options import PIXELS_PER_INCH, background_rgb
 from .render import Color
 
 Box = tuple[float, float, float, float]  # left, top, width, height in pixels, from the upper left corner
@@ -20,6 +21,7 @@ Box = tuple[float, float, float, float]  # left, top, width, height in pixels, f
 _FONT = "DejaVu Sans"
 _SMALLEST_FONT, _LARGEST_FONT = 8.0, 26.0
 LINE = 1.4  # line height over font size
+_TEXT_AS_TEXT = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "curvcli"}
 
 
 @dataclass(frozen=True)
@@ -34,17 +36,22 @@ class LegendEntry:
 class Sheet:
     """Matplotlib figure of so many pixels, drawn on from the upper left corner."""
 
-    def __init__(self, size: tuple[int, int], background: str) -> None:
+    def __init__(self, size: tuple[int, int], background: str, suffix: str = ".png") -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
         self.width, self.height = size
+        self.format = suffix.rpartition(".")[2]
         self.background = background_rgb(background)
         red, green, blue = self.background
         self.dark = 0.299 * red + 0.587 * green + 0.114 * blue < 0.5
         self.ink: Color = (0.93, 0.93, 0.93) if self.dark else (0.1, 0.1, 0.1)
         self.pale: Color = (0.7, 0.7, 0.7) if self.dark else (0.35, 0.35, 0.35)
-        self.figure: Any = Figure(figsize=(self.width / 100, self.height / 100), dpi=100, facecolor=self.background)
+        self.figure: Any = Figure(
+            figsize=(self.width / PIXELS_PER_INCH, self.height / PIXELS_PER_INCH),
+            dpi=PIXELS_PER_INCH,
+            facecolor=self.background,
+        )
         self.canvas: Any = FigureCanvasAgg(self.figure)
 
     def font(self, width: float, height: float) -> float:
@@ -99,9 +106,20 @@ class Sheet:
         at[:, 1] = 1 - at[:, 1]
         self.figure.patches.append(Polygon(at, transform=self.figure.transFigure, facecolor=color, linewidth=0))
 
-    def image(self, pixels: NDArray[np.uint8], left: int, top: int) -> None:
-        """Draw an image at its own size."""
-        self.figure.figimage(pixels, left, self.height - top - pixels.shape[0], origin="upper")
+    @property
+    def vector(self) -> bool:
+        """True for formats of pages, in which texts and lines have no pixels."""
+        return self.format != "png"
+
+    def image(self, pixels: NDArray[np.uint8], box: Box) -> None:
+        """Draw an image: on a page in a box, with all of its pixels; in a PNG at its own size from the same corner."""
+        left, top, _, _ = box
+        if not self.vector:
+            self.figure.figimage(pixels, left, self.height - top - pixels.shape[0], origin="upper")
+            return
+        axes = self.axes(box)
+        axes.set_axis_off()
+        axes.imshow(pixels, aspect="auto", interpolation="none")
 
     def axes(self, box: Box) -> Any:
         """Axes that fill a box."""
@@ -114,12 +132,27 @@ class Sheet:
         )
         return self.figure.add_axes(place)
 
-    def png(self, about: Mapping[str, str]) -> bytes:
-        """Sheet as PNG with text metadata; a character that no font has is drawn as a box, without a warning."""
+    def content(self, title: str, description: str) -> bytes:
+        """Sheet in its format; a character that no font has is drawn as a box, without a warning.
+
+        Pages have no date and no random identifiers, so equal sheets are equal bytes. Their texts are texts: TrueType
+        fonts in PDF, names of fonts in SVG.
+        """
+        from matplotlib import rc_context
+
         stream = io.BytesIO()
-        with warnings.catch_warnings():
+        title, description, program = escape_text(title), escape_text(description), f"curvcli {__version__}"
+        metadata: dict[str, dict[str, Any]] = {
+            "png": {"Title": title, "Description": description, "Software": program},
+            "pdf": {"Title": title, "Subject": description, "Creator": program, "CreationDate": None},
+            "svg": {"Title": title, "Description": description, "Creator": program, "Date": None},
+        }
+        with warnings.catch_warnings(), rc_context(_TEXT_AS_TEXT):
             warnings.simplefilter("ignore")
-            self.canvas.print_png(stream, metadata={key: escape_text(text) for key, text in about.items()})
+            if self.vector:
+                self.figure.savefig(stream, format=self.format, metadata=metadata[self.format])
+            else:
+                self.canvas.print_png(stream, metadata=metadata["png"])
         return stream.getvalue()
 
     # ------------------------------------------------------------------ legends

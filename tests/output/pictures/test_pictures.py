@@ -187,14 +187,14 @@ def test_outliers_do_not_ruin_the_range() -> None:
 def sheets(monkeypatch: pytest.MonkeyPatch) -> list[Sheet]:
     """Every sheet that is finished."""
     finished: list[Sheet] = []
-    png = Sheet.png
+    content = Sheet.content
 
-    def caught(self: Sheet, about: Any) -> bytes:
-        content = png(self, about)
+    def caught(self: Sheet, title: str, description: str) -> bytes:
+        made = content(self, title, description)
         finished.append(self)
-        return content
+        return made
 
-    monkeypatch.setattr(Sheet, "png", caught)
+    monkeypatch.setattr(Sheet, "content", caught)
     return finished
 
 

@@ -1,7 +1,8 @@
-"""Pictures of the coloured surface."""
+"""Pictures of the coloured surface: pixels, or a page on which texts and lines stay texts and lines."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, BinaryIO
 
 from ..registry import DocumentFormat, register
@@ -18,7 +19,7 @@ def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
     return appearance.color_by or tuple(name for name in (*COLOR_BY, "status") if name in chosen)[:1]
 
 
-def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
+def write_as(suffix: str, stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
     """Draw the surface; a line for each column, with its range."""
     from ..pictures.options import import_apart, require_pictures
 
@@ -30,19 +31,22 @@ def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: s
     from ..pictures.picture import write_picture
 
     columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
-    write_picture(stream, analysis, columns, appearance.picture, appearance.value_range)
+    write_picture(stream, analysis, columns, appearance.picture, appearance.value_range, suffix)
     return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in columns]
 
 
-register(
-    DocumentFormat(
-        suffix=".png",
-        kind="picture",
-        description="picture of the coloured surface",
-        place=1,
-        write=write,
-        shows=shows,
-        edges=True,
-        camera=True,
+for place, suffix in enumerate((".png", ".pdf", ".svg")):
+    page = suffix != ".png"
+    register(
+        DocumentFormat(
+            suffix=suffix,
+            kind="picture",
+            description="picture of the coloured surface" + (", with text and lines as such" if page else ""),
+            place=10 + place,
+            write=partial(write_as, suffix),
+            shows=shows,
+            edges=True,
+            camera=True,
+            page=page,
+        )
     )
-)
