@@ -55,6 +55,7 @@ def analyze(
     radius: str | float | Iterable[str | float] | None = None,
     normals: Literal["mesh", "file"] = "mesh",
     noise: float | None = None,
+    stat: str | Iterable[str] = (),
 ) -> Analysis:
     """Compute curvatures of a surface, their totals and the identities that they must satisfy.
 
@@ -68,7 +69,8 @@ def analyze(
     radius: the scale of estimates, in rings of edges or as a radius (a length, or mean edge lengths such as `3e`);
     several (`2e,4e`, or a list) give one column each. normals: the normals of the corrected curvatures, those of the
     mesh or of the file. noise: the standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the
-    precision of the coordinates.
+    precision of the coordinates. stat: the statistics of every column for each region and component in the report,
+    such as `count,mean,area_mean,p02`; without it, regions have those of the whole surface, and components have none.
     Errors: UsageError for an unknown name or an unsuitable option, InputError for a mesh that is no surface.
     """
     options: dict[str, Any] = {
@@ -83,5 +85,6 @@ def analyze(
         "radius": radius,
         "normals": normals,
         "noise": noise,
+        "stat": stat,
     }
     return compute(surface, Request(passes=passes, **options), Analysis)

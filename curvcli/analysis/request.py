@@ -20,6 +20,7 @@ from ..errors import UsageError
 from ..mesh.precision import precision
 from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Orient, Surface
+from .statistics import parse_statistics
 
 Area = Literal["barycentric", "mixed", "voronoi"]
 Mean = Literal["sum", "average"]
@@ -62,6 +63,7 @@ class Request:
     radius: str | float | Iterable[str | float] | None = None
     normals: NormalSource = "mesh"
     noise: float | None = None
+    stat: str | Iterable[str] = ()
     besides: Collection[str] = ()
 
     def __post_init__(self) -> None:
@@ -100,6 +102,11 @@ class Request:
     def named_checks(self) -> list[str] | None:
         """Names of the checks; None stands for all whose needs the chosen passes meet."""
         return None if self.checks is None else named_checks(self.checks)
+
+    @cached_property
+    def statistics(self) -> tuple[str, ...]:
+        """Statistics of the columns in each region and component; none for those of the report, in regions only."""
+        return parse_statistics(self.stat)
 
     @property
     def labels(self) -> str | NDArray[np.integer[Any]] | None:

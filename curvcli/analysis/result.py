@@ -238,7 +238,7 @@ def compute(given: Any, request: Request, kind: type[Kind]) -> Kind:
 
     Errors: those of `curvcli.analyze`.
     """
-    _ = request.chosen  # refuses an unknown name before a mesh is read
+    _ = request.chosen, request.statistics  # refuse an unknown name before a mesh is read
     surface = as_surface(given, orient=request.orient, weld=request.weld, normals=request.normals)
     labels = request.labels
     checks = request.named_checks

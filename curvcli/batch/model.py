@@ -51,6 +51,7 @@ class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     radius: str | None = None
     normals: str = "mesh"
     noise: float | None = None
+    stat: tuple[str, ...] = ()
     input_format: str | None = None
     max_faces: int | None = None
     max_bytes: int | None = None

@@ -32,6 +32,7 @@ from .outcome import explained
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
 
+_CONVENTIONS = (*("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise", "stat"),)
 _WORST = ("fail", "pass", "not_applicable")
 
 
@@ -60,10 +61,7 @@ def _analysed(item: BatchItem, settings: BatchSettings) -> Result:
     with _timed(timings, "read"):
         surface = _surface(item, settings)
     with _timed(timings, "compute"):
-        conventions: dict[str, Any] = {
-            key: getattr(settings, key)
-            for key in ("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise")
-        }
+        conventions: dict[str, Any] = {key: getattr(settings, key) for key in _CONVENTIONS}
         request = Request(passes=settings.passes, **conventions)
         formats = [format_of(path) for kind, path in item.outputs if not kind]
         tables = [kind for kind, _ in item.outputs if kind]

@@ -51,6 +51,7 @@ if TYPE_CHECKING:
 )
 @options.passes
 @options.regions
+@options.stat
 @options.reading
 @options.estimating
 @options.as_json
@@ -105,6 +106,7 @@ class AnalyzeRun:
         max_bytes: int | None,
         **conventions: Any,
     ) -> None:
+        from ..analysis.statistics import parse_statistics
         from ..output.registry import format_of
         from ..output.tables.columns import TABLES
         from ..output.write import check_appearance, needs
@@ -113,6 +115,7 @@ class AnalyzeRun:
         self.weld, self.configuration = parse_weld(weld), configuration()
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
         self.passes, at_scale = options.chosen(passes, conventions)
+        parse_statistics(conventions["stat"])
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
         self.stream_format = stream_format
         self.appearance: Appearance = options.appearance(conventions, precision)

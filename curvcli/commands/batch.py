@@ -55,6 +55,7 @@ if TYPE_CHECKING:
 )
 @options.passes
 @click.option("--regions", metavar="groups|objects|materials|PROPERTY", help="Labels of faces within each mesh.")
+@options.stat
 @options.reading
 @options.estimating
 @options.drawing
@@ -141,11 +142,13 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
 
     Errors: UsageError for options that do not fit.
     """
+    from ..analysis.statistics import parse_statistics
     from ..batch.model import BatchSettings
     from ..output.write import check_appearance
     from ..report.phrases import shell_quoted
 
     names, at_scale = options.chosen(passes, conventions)
+    conventions["stat"] = parse_statistics(conventions["stat"])
     if any(one.startswith("regions.") for one in save) and conventions["regions"] is None:
         raise UsageError("--save regions: there are none without --regions")
     appearance = options.appearance(conventions)

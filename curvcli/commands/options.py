@@ -122,6 +122,15 @@ regions = click.option(
     help="Labels of the faces: totals and checks are also computed per region.",
 )
 
+stat = click.option(
+    "--stat",
+    metavar="NAME[,NAME]",
+    multiple=True,
+    help="Statistics of every column for each region and component, in their tables and in the report: count, nulls, "
+    "mean, std, min, max, absmax, sum, median, percentiles such as p02 or p97.5; area_mean, area_std, area_median and "
+    "area_p02 weigh by area.",
+)
+
 
 def _printable(_context: click.Context, _option: click.Parameter, name: str | None) -> str | None:
     if name is not None and not name.isprintable():

@@ -30,6 +30,12 @@ class Segments:
         start = np.concatenate([[0], np.cumsum(per_group)])[1:]
         return order, start[:-1], per_group[1:]
 
+    @property
+    def order(self) -> NDArray[np.int64]:
+        """Members of all groups, group after group, each in ascending order."""
+        order, start, _ = self._runs
+        return order[start[0] :]
+
     def members(self) -> NDArray[np.int64]:
         """Number of members of each group."""
         return np.array([self.size]) if self.label is None else self._runs[2]

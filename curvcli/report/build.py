@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -13,7 +13,6 @@ from msgspec.structs import replace
 from .._version import __version__
 from ..analysis.configuration import configured
 from ..checks.special import competing_normals, constant_mean_curvature, steiner
-from ..curvatures.registry import passes
 from ..mesh.counts import classify, count_groups, duplicate_faces, duplicate_vertices
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
@@ -32,7 +31,7 @@ from .model import (
     input_of,
     vector,
 )
-from .statistics import ColumnStatistics, statistics
+from .statistics import ColumnStatistics, Statistics, described, listed_statistics, statistics
 
 if TYPE_CHECKING:
     from ..analysis.result import Result
@@ -70,8 +69,8 @@ def model(analysis: Result) -> Report:
     )
 
 
-def pieces(analysis: Result, groups: Groups) -> list[Piece]:
-    """Topology, totals and further values of each group of a surface."""
+def pieces(analysis: Result, groups: Groups, columns: Sequence[dict[str, Statistics]] | None = None) -> list[Piece]:
+    """Topology, totals and further values of each group of a surface. columns: the statistics of each group."""
     counts = _counts(analysis, groups)
     totals = {key: _json_list(values) for key, values in analysis.totals_of(groups).items()}
     extras = _extras(analysis, groups)
@@ -79,6 +78,7 @@ def pieces(analysis: Result, groups: Groups) -> list[Piece]:
         Piece(
             Topology(**{key: values[group] for key, values in counts.items()}),
             {key: values[group] for key, values in totals.items()},
+            columns=msgspec.UNSET if columns is None else columns[group],
             name=groups.names[group] if groups.names else msgspec.UNSET,
             **{key: make(group) for key, make in extras.items()},
         )
@@ -93,16 +93,25 @@ def _whole(analysis: Result) -> Piece:
 
 @cached
 def _components(analysis: Result) -> list[Piece]:
-    """Components of a surface; a single one from the surface itself, but for the vertices that no face uses."""
-    if analysis.surface.components.count == 1:
+    """Components of a surface; a single one from the surface itself, but for the vertices that no face uses.
+
+    Their columns only if statistics are named: there may be very many components.
+    """
+    names, components = analysis.request.statistics, analysis.surface.components
+    columns = listed_statistics(analysis, components, names) if names else None
+    if components.count == 1:
         whole = _whole(analysis)
-        return [replace(whole, topology=replace(whole.topology, unreferenced_vertices=0))]
-    return pieces(analysis, analysis.surface.components)
+        topology = replace(whole.topology, unreferenced_vertices=0)
+        return [replace(whole, topology=topology, columns=columns[0] if columns else msgspec.UNSET)]
+    return pieces(analysis, components, columns)
 
 
 @cached
 def _regions(analysis: Result) -> list[Piece]:
-    return [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
+    if analysis.cut is None:
+        return []
+    columns = listed_statistics(analysis.cut, analysis.cut_groups, analysis.request.statistics)
+    return pieces(analysis.cut, analysis.cut_groups, columns)
 
 
 @cached
@@ -179,20 +188,11 @@ def merged(surface: Surface) -> int:
 
 @cached
 def _columns(analysis: Result) -> dict[str, ColumnStatistics]:
-    surface = analysis.surface
-    area = analysis.columns["star_area"]
-    found: dict[str, ColumnStatistics] = {}
-    for name in analysis.chosen:
-        quantity = passes.quantity(name)
-        if quantity.on != "vertex" or quantity.kind == "label":
-            continue
-        shown = analysis.column(name)
-        each = shown.T if quantity.vector else [shown]
-        for column, values in zip(quantity.columns, each, strict=True):
-            found[column] = statistics(
-                quantity, values, area, surface.referenced, quantity.unit(analysis.conventions.unit)
-            )
-    return found
+    area, used, unit = analysis.columns["star_area"], analysis.surface.referenced, analysis.conventions.unit
+    return {
+        column: statistics(quantity, values, area, used, quantity.unit(unit))
+        for quantity, column, values in described(analysis)
+    }
 
 
 def _json_list(values: Any) -> list[Any]:

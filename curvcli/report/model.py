@@ -13,7 +13,7 @@ from ..curvatures.registry import passes
 from ..errors import Notice
 from ..support.arrays import Value
 from ..support.words import escape_json, escape_text
-from .statistics import ColumnStatistics
+from .statistics import ColumnStatistics, Statistics
 
 if TYPE_CHECKING:
     from ..mesh.file import MeshFile
@@ -97,7 +97,10 @@ class Normals(msgspec.Struct):
 
 
 class Piece(msgspec.Struct, omit_defaults=True):
-    """The whole surface, one component or one region of it; `name` of a region."""
+    """The whole surface, one component or one region of it; `name` of a region.
+
+    columns: the statistics of each column, of regions, and of components where --stat names some.
+    """
 
     topology: Topology
     totals: dict[str, Value]
@@ -105,6 +108,7 @@ class Piece(msgspec.Struct, omit_defaults=True):
     cmc: Cmc | msgspec.UnsetType = msgspec.UNSET
     minimal: Minimal | msgspec.UnsetType = msgspec.UNSET
     normals: Normals | msgspec.UnsetType = msgspec.UNSET
+    columns: dict[str, Statistics] | msgspec.UnsetType = msgspec.UNSET
     name: str | msgspec.UnsetType = msgspec.UNSET
 
 

@@ -1,21 +1,33 @@
-"""Statistics of one column; nulls are left out and counted."""
+"""Statistics of the vertex columns: of the whole surface, and of each of its components or regions."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from ..analysis.statistics import REPORTED, GroupedColumn
 from ..curvatures.quantity import Quantity
-from ..support.blocks import slices
+from ..curvatures.registry import passes
+from ..mesh.groups import Groups, Segments
+from ..mesh.surface import Surface
+from ..support.arrays import Floats, Ints, Mask, or_none
+
+if TYPE_CHECKING:
+    from ..analysis.result import Result
+
+# Statistics of one column of a component or region, by their names.
+Statistics = dict[str, int | float | None]
 
 
 class ColumnStatistics(msgspec.Struct):
-    """Distribution of a column; percentiles interpolate linearly, std is of the population."""
+    """Distribution of a column; percentiles interpolate linearly, std is of the population.
+
+    count: of the values that are not null; count + nulls is the number of rows of the vertex table.
+    """
 
     symbol: str
     unit: str
@@ -30,51 +42,65 @@ class ColumnStatistics(msgspec.Struct):
     median: float | None
     p98: float | None
     nulls: int
+    count: int | msgspec.UnsetType = msgspec.UNSET  # absent in older reports
 
 
-def statistics(
-    quantity: Quantity, values: NDArray[Any], area: NDArray[np.float64], referenced: NDArray[np.bool_], unit: str
-) -> ColumnStatistics:
-    """Statistics of a vertex column. area: (V,) barycentric areas, the weights of `area_mean`."""
-    numbers = values.astype(np.float64, copy=False)
-    known = referenced & ~np.isnan(numbers)
-    nulls = len(numbers) - int(np.count_nonzero(known))
-    if nulls:
-        numbers, area = numbers[known], area[known]
-    described = (quantity.symbol.replace("*", ""), unit, quantity.kind, quantity.length_exponent)
-    if not len(numbers):
-        return ColumnStatistics(*described, None, None, None, None, None, None, None, None, nulls)
-    # In units of a power of two near the largest value, so that squares and sums stay within the range of doubles.
-    ordered = np.sort(numbers)
-    size = np.ldexp(1.0, int(np.frexp(max(abs(ordered[0]), abs(ordered[-1])))[1]) - 1) or 1.0
-    low, median, high = (_quantile(ordered, share, size) for share in (0.02, 0.5, 0.98))
-    first, last = float(ordered[0]), float(ordered[-1])
-    scaled = np.divide(numbers, size, out=ordered)
-    mean, weight = float(scaled.mean()), float(area.sum())
-    by_area = _sum(lambda block: scaled[block] * area[block], len(scaled))
-    square = _sum(lambda block: np.square(scaled[block] - mean), len(scaled))
-    return ColumnStatistics(
-        *described,
-        first,
-        last,
-        float(mean * size),
-        float(by_area / weight * size) if weight > 0 else None,
-        float(math.sqrt(square / len(scaled)) * size),
-        low,
-        median,
-        high,
-        nulls,
-    )
+def statistics(quantity: Quantity, values: NDArray[Any], area: Floats, used: Mask, unit: str) -> ColumnStatistics:
+    """Statistics of one column of the whole surface.
+
+    area: (n,) the weights of `area_mean`. used: (n,) elements that count; the values of others are nulls.
+    """
+    grouped = GroupedColumn(values.astype(np.float64, copy=False), area, Segments(None, 1, len(values)), used)
+    numbers: dict[str, Any] = {name: _plain(grouped.statistic(name))[0] for name in REPORTED}
+    symbol = quantity.symbol.replace("*", "")
+    return ColumnStatistics(symbol, unit, quantity.kind, quantity.length_exponent, **numbers)
 
 
-def _sum(part: Callable[[slice], NDArray[np.float64]], count: int) -> float:
-    """Sum of numbers that are computed a block at a time."""
-    return math.fsum(float(part(block).sum()) for block in slices(count))
+def described(analysis: Result) -> Iterator[tuple[Quantity, str, Floats]]:
+    """Quantity, name and values of every scalar vertex column with statistics, in the order of the table."""
+    for name in analysis.chosen:
+        quantity = passes.quantity(name)
+        if quantity.on == "vertex" and quantity.kind != "label":
+            shown = analysis.column(name)
+            for column, values in zip(quantity.columns, shown.T if quantity.vector else [shown], strict=True):
+                yield quantity, column, values.astype(np.float64, copy=False)
 
 
-def _quantile(ordered: NDArray[np.float64], share: float, size: float) -> float:
-    """Value below which a share of the ordered values lies; size: their common divisor."""
-    place = share * (len(ordered) - 1)
-    below = int(place)
-    first, second = ordered[below] / size, ordered[min(below + 1, len(ordered) - 1)] / size
-    return float((first + (second - first) * (place - below)) * size)
+def grouped_statistics(
+    analysis: Result, groups: Groups, names: Sequence[str] = ()
+) -> dict[str, dict[str, Floats | Ints]]:
+    """(G,) statistics of every vertex column in each group, by column and statistic; none named: those of the report.
+
+    A vertex counts in the group of its faces. Regions are groups of the surface that is cut along them: a vertex on a
+    cut counts in each of its regions, with the value and the area that it has in that region.
+    """
+    area, segments = analysis.columns["star_area"], _referenced(groups, analysis.surface)
+    found: dict[str, dict[str, Floats | Ints]] = {}
+    for _, column, values in described(analysis):
+        grouped = GroupedColumn(values, area, segments)
+        found[column] = {name: grouped.statistic(name) for name in names or REPORTED}
+    return found
+
+
+def _referenced(groups: Groups, surface: Surface) -> Segments:
+    """Vertices by group; a single component has no unreferenced vertices either."""
+    if groups.vertices.label is not None or surface.referenced.all():
+        return groups.vertices
+    return Segments(np.where(surface.referenced, 0, -1).astype(np.int32), 1, surface.n_vertices)
+
+
+def listed_statistics(analysis: Result, groups: Groups, names: Sequence[str] = ()) -> list[dict[str, Statistics]]:
+    """The same as one dictionary per group, with None for NaN."""
+    by_column = {
+        column: {name: _plain(each) for name, each in statistics.items()}
+        for column, statistics in grouped_statistics(analysis, groups, names).items()
+    }
+    return [
+        {column: {name: each[g] for name, each in statistics.items()} for column, statistics in by_column.items()}
+        for g in range(groups.count)
+    ]
+
+
+def _plain(values: Floats | Ints) -> list[Any]:
+    """Numbers of Python, None for NaN and infinity."""
+    return values.tolist() if values.dtype.kind == "i" else [or_none(value) for value in values.tolist()]

@@ -13,6 +13,7 @@ from ...mesh.file import Labels
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
+    from ...mesh.groups import Groups
     from ...report.model import Piece
 
 Table = dict[str, Any]
@@ -92,7 +93,8 @@ def component_table(analysis: Result) -> Table:
     from ...report.build import pieces
 
     found = pieces(analysis, analysis.surface.components)
-    return {"component": np.arange(len(found), dtype=np.int32)} | _piece_columns(found)
+    statistics = _statistics(analysis, analysis.surface.components, analysis.request.statistics)
+    return {"component": np.arange(len(found), dtype=np.int32)} | _piece_columns(found) | statistics
 
 
 def region_table(analysis: Result) -> Table:
@@ -101,7 +103,21 @@ def region_table(analysis: Result) -> Table:
 
     found = [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
     names = () if analysis.regions is None else analysis.regions.names
-    return {"region": _words(names)} | _piece_columns(found)
+    table = {"region": _words(names)} | _piece_columns(found)
+    if analysis.cut is not None:
+        table |= _statistics(analysis.cut, analysis.cut_groups, analysis.request.statistics)
+    return table
+
+
+def _statistics(analysis: Result, groups: Groups, names: Sequence[str]) -> Table:
+    """The named statistics of every column in each group, as COLUMN_STATISTIC."""
+    from ...report.statistics import grouped_statistics
+
+    return {
+        f"{column}_{name}": values
+        for column, each in (grouped_statistics(analysis, groups, names) if names else {}).items()
+        for name, values in each.items()
+    }
 
 
 def loop_table(analysis: Result) -> Table:
