@@ -143,8 +143,9 @@ unit = click.option(
 )
 input_format = click.option(
     "--input-format",
+    metavar="FORMAT",
     type=click.Choice(list(input_formats())),
-    help="Format of the input, overriding its suffix.",
+    help="Format of the input, overriding its suffix; `curvcli help formats` lists them.",
 )
 max_faces = click.option("--max-faces", type=click.IntRange(1), help="Refuse meshes with more polygons than this.")
 max_bytes = click.option("--max-bytes", type=click.IntRange(1), help="Refuse files larger than this, unpacked.")

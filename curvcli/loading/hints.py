@@ -32,7 +32,7 @@ _TABLE = "`curvcli compare` reads reports and tables"
 _WAYS_OUT = {
     **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "msh", "nas", "tec", "vol"), _MESHIO),
     **dict.fromkeys(("vtk", "vtp", "vtu"), _VTK),
-    **dict.fromkeys(("glb", "gltf", "off"), _TRIMESH),
+    **dict.fromkeys(("glb", "gltf"), _TRIMESH),
     "gii": _GIFTI,
     **dict.fromkeys(("inflated", "orig", "pial", "smoothwm", "sphere", "white"), _FREESURFER),
     **dict.fromkeys(("step", "stp", "iges", "igs", "brep"), _GMSH),

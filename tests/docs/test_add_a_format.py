@@ -14,4 +14,4 @@ def test_the_page_as_written(tmp_path: Path) -> None:
     assert changed(project) <= {"docs/formats.md", "docs/command-line.md", "docs/performance.md"}
     package = {path.relative_to(project) for path in (project / "curvcli").rglob("*.py")}
     before = {path.relative_to(ROOT) for path in (ROOT / "curvcli").rglob("*.py")}
-    assert package - before == {Path("curvcli/loading/formats/off.py")}
+    assert package - before == {Path("curvcli/loading/formats/mesh.py")}

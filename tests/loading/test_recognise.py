@@ -11,6 +11,7 @@ import pytest
 
 from curvcli.errors import UsageError
 from curvcli.loading.read import read_mesh_file
+from curvcli.loading.registry import suffixes
 from tests.helpers.spelling import ascii_stl, binary_stl
 from tests.loading.files import CONTENT, OBJ, refused
 from tests.loading.test_stl import TETRAHEDRON
@@ -92,15 +93,15 @@ def test_text_in_utf_16_is_refused(tmp_path: Path) -> None:
 
 
 def test_other_suffixes_are_refused_unless_told(tmp_path: Path) -> None:
-    for name in ("mesh.off", "mesh", "mesh.obj.bak", "mesh.gz", "obj"):
+    for name in ("mesh.raw", "mesh", "mesh.obj.bak", "mesh.gz", "obj"):
         path = tmp_path / name
         path.write_bytes(OBJ)
         message = refused(path)
-        assert ".obj, .ply, .stl expected" in message
-        assert ("--input-format" in message) == (name != "mesh.off")
+        assert f"{', '.join(f'.{suffix}' for suffix in suffixes())} expected" in message
+        assert "--input-format" in message
         assert read_mesh_file(path, input_format="obj").polygons == 2
-    with pytest.raises(UsageError, match="`off` is not known"):
-        read_mesh_file(tmp_path / "mesh.off", input_format="off")
+    with pytest.raises(UsageError, match="`raw` is not known"):
+        read_mesh_file(tmp_path / "mesh.raw", input_format="raw")
 
 
 @pytest.mark.parametrize(
