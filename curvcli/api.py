@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 import numpy as np
@@ -13,6 +13,7 @@ from .analysis.request import Request
 from .analysis.result import Result, compute
 from .curvatures.catalogue import loaded
 from .curvatures.registry import Registry
+from .curvatures.settings import with_spontaneous_curvature
 from .loading.load import load
 from .mesh.surface import Orient, Surface
 from .output.write import write_outputs
@@ -56,6 +57,9 @@ def analyze(
     normals: Literal["mesh", "file"] = "mesh",
     noise: float | None = None,
     stat: str | Iterable[str] = (),
+    settings: Mapping[str, Any] | Iterable[str] | None = None,
+    spontaneous_curvature: float | Mapping[str, float] | None = None,
+    bending_rigidity: str | None = None,
 ) -> Analysis:
     """Compute curvatures of a surface, their totals and the identities that they must satisfy.
 
@@ -71,6 +75,9 @@ def analyze(
     mesh or of the file. noise: the standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the
     precision of the coordinates. stat: the statistics of every column for each region and component in the report,
     such as `count,mean,area_mean,p02`; without it, regions have those of the whole surface, and components have none.
+    settings: values of the parameters of passes by PASS.NAME, such as
+    `{"helfrich.c0": 0.5}`, in the file's unit of length. spontaneous_curvature: the same for `helfrich.c0`; by region,
+    a mapping from its name to a value. bending_rigidity: `20kBT` or `8e-20J`, which energies are multiplied by.
     Errors: UsageError for an unknown name or an unsuitable option, InputError for a mesh that is no surface.
     """
     options: dict[str, Any] = {
@@ -86,5 +93,7 @@ def analyze(
         "normals": normals,
         "noise": noise,
         "stat": stat,
+        "parameters": with_spontaneous_curvature(settings, spontaneous_curvature),
+        "bending_rigidity": bending_rigidity,
     }
     return compute(surface, Request(passes=passes, **options), Analysis)

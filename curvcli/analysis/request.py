@@ -14,12 +14,14 @@ from numpy.typing import NDArray
 from ..checks.catalogue import named_checks
 from ..curvatures.catalogue import at_scales, defaults, resolve
 from ..curvatures.engine import schedule
-from ..curvatures.quantity import AT_SCALE, CELL_AREAS
+from ..curvatures.quantity import AT_SCALE, CELL_AREAS, Quantity
 from ..curvatures.registry import passes as registry
+from ..curvatures.settings import GivenSettings, SettingValue, describe_settings, implied, parse_settings, regions_of
 from ..errors import UsageError
 from ..mesh.precision import precision
 from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Orient, Surface
+from .rigidity import Rigidity, parse_rigidity
 from .statistics import parse_statistics
 
 Area = Literal["barycentric", "mixed", "voronoi"]
@@ -40,12 +42,24 @@ class Conventions:
     scale: str | None = None
     normals: str | None = None
     noise: str | None = None
+    settings: str | None = None
+    bending_rigidity: str | None = None
+
+    @property
+    def rigidity(self) -> Rigidity | None:
+        """Bending rigidity that energies are multiplied by; None leaves them in units of κ."""
+        return None if self.bending_rigidity is None else parse_rigidity(self.bending_rigidity)
+
+    def unit_of(self, quantity: Quantity) -> str:
+        """Unit of a quantity in outputs."""
+        return quantity.unit(self.unit, None if self.rigidity is None else self.rigidity.unit)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
     """Options of an analysis, documented at `curvcli.analyze`.
 
+    parameters: values of the parameters of passes, see `parse_settings`.
     besides: quantities that tables and colours need beside the report, computed in the same evaluation; the report does
     not depend on them.
     Errors: UsageError for an option or a name that is not known.
@@ -64,6 +78,8 @@ class Request:
     normals: NormalSource = "mesh"
     noise: float | None = None
     stat: str | Iterable[str] = ()
+    parameters: GivenSettings = None
+    bending_rigidity: str | None = None
     besides: Collection[str] = ()
 
     def __post_init__(self) -> None:
@@ -77,16 +93,30 @@ class Request:
             value = getattr(self, option)
             if value not in values and not (option == "orient" and value is None):
                 raise UsageError(f"{option} is {value!r}, expected one of {', '.join(values)}")
+        _ = self.rigidity
+        for name, region in regions_of(self.values) if self.regions is None else ():
+            raise UsageError(f"{name} has a value for region {region!r}, and there are no regions without --regions")
+
+    @cached_property
+    def values(self) -> dict[str, SettingValue]:
+        """Values of the parameters of passes by PASS.NAME, as given."""
+        return parse_settings(self.parameters)
+
+    @cached_property
+    def rigidity(self) -> Rigidity | None:
+        """Bending rigidity; None leaves energies in units of κ."""
+        return None if self.bending_rigidity is None else parse_rigidity(self.bending_rigidity)
 
     @cached_property
     def settings(self) -> EstimatorSettings:
-        """Scales, normals and noise of estimates."""
+        """Scales, normals and noise of estimates, and parameters of passes, without values by region."""
         scales = parse_scales(self.rings, self.radius)
-        return EstimatorSettings(scales or DEFAULTS.scales, self.normals, self.noise)
+        values = {name: value for name, value in self.values.items() if not isinstance(value, dict)}
+        return EstimatorSettings(scales or DEFAULTS.scales, self.normals, self.noise, values)
 
     @cached_property
     def chosen(self) -> list[str]:
-        """Columns: those named, or `core`, with `estimates` where a scale is given.
+        """Columns: those named, or `core`, with `estimates` where a scale is given; and those of passes with a setting.
 
         A name may give one of several scales: `K_fit@2e`.
         """
@@ -95,8 +125,13 @@ class Request:
             named = defaults(bool(parse_scales(self.rings, self.radius)), self.noise is not None)
         names = [named] if isinstance(named, str) else list(named)
         at_one = [name for name in names if AT_SCALE in name]
-        resolved = resolve(name for name in names if AT_SCALE not in name)
+        resolved = resolve([*(name for name in names if AT_SCALE not in name), *self.implied])
         return list(dict.fromkeys([*at_scales(resolved, self.settings), *at_one]))
+
+    @property
+    def implied(self) -> list[str]:
+        """Columns of the passes that have a setting, and of energies where a bending rigidity is given."""
+        return implied(self.values, self.bending_rigidity)
 
     @cached_property
     def named_checks(self) -> list[str] | None:
@@ -117,7 +152,12 @@ class Request:
         """Conventions of the numbers of a surface; None for an option that no chosen column depends on."""
         plain = {name.partition(AT_SCALE)[0] for name in self.chosen}
         scaled = any(registry.depends_on_scale(name) for name in plain)
-        used = {need for one in schedule(registry, plain, "barycentric") for need in one.needs}
+        order = schedule(registry, plain, "barycentric")
+        used = {need for one in order for need in one.needs}
+        values: dict[str, SettingValue] = {
+            f"{one.name}.{each.name}": each.default for one in order for each in one.settings
+        }
+        values |= {name: value for name, value in self.values.items() if name in values}
         settings = self.settings
         noise = None
         if "noise" in used:
@@ -133,4 +173,6 @@ class Request:
             ",".join(scale.name for scale in settings.scales) if scaled else None,
             settings.normals if "normals" in used else None,
             noise,
+            describe_settings(values) if values else None,
+            None if self.rigidity is None else str(self.rigidity),
         )

@@ -22,10 +22,11 @@ from ..errors import Notice
 from ..loading.labels import Regions, cut_along_regions, find_regions, region_notices
 from ..loading.load import as_surface
 from ..mesh.groups import Groups
-from ..mesh.scale import DEFAULTS, parse_scales
+from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Surface
 from ..support.arrays import Array, or_none
 from . import notices as findings
+from .by_region import on_faces, with_regions
 from .columns import Columns, named
 from .request import Request
 from .resolution import beside, of_stars, unscaled
@@ -54,9 +55,11 @@ class Result:
         request: Request,
         regions: Regions | None = None,
         checks: Iterable[str] | None = None,
+        settings: EstimatorSettings | None = None,
     ) -> None:
         self.surface, self.request, self.regions = surface, request, regions
-        self.chosen, self.settings, self.conventions = request.chosen, request.settings, request.conventions(surface)
+        self.chosen, self.conventions = request.chosen, request.conventions(surface)
+        self.settings = settings or with_regions(request.settings, request.values, regions)
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
         self.configuration: Configuration | None = None
@@ -78,9 +81,9 @@ class Result:
         self.cut: Result | None = None
         if regions is not None:
             cut, self.cut_groups = cut_along_regions(surface, regions)
-            self.cut = Result(
-                cut, replace(request, regions=None, besides=()), checks=[rule.name for rule in self._rules]
-            )
+            alone = replace(request, regions=None, parameters=None, passes=tuple(self.chosen), besides=())
+            names = [rule.name for rule in self._rules]
+            self.cut = Result(cut, alone, checks=names, settings=on_faces(self.settings, regions.face >= 0))
 
     @cached_property
     def _closure(self) -> set[str]:
@@ -110,7 +113,8 @@ class Result:
 
     def column(self, name: str) -> Array:
         """One column as in the outputs: (n,), (n, 3), or strings for labels."""
-        return in_file_unit(passes.quantity(name), self.computed(name), self.surface, self.request.mean)
+        rigidity = 1.0 if self.request.rigidity is None else self.request.rigidity.size
+        return in_file_unit(passes.quantity(name), self.computed(name), self.surface, self.request.mean, rigidity)
 
     def shown(self, name: str) -> Array:
         """The same column, cached, and computed where the request did not name it."""
@@ -165,7 +169,8 @@ class Result:
 
     def totals_of(self, groups: Groups) -> dict[str, NDArray[np.float64]]:
         """Totals of each group, (G,) or (G, 3); NaN where undefined."""
-        return totals(self.surface, groups, self.columns, self.request.mean)
+        rigidity = 1.0 if self.request.rigidity is None else self.request.rigidity.size
+        return totals(self.surface, groups, self.columns, self.request.mean, rigidity)
 
     @cached_property
     def totals(self) -> dict[str, float | list[float] | None]:

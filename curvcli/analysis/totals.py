@@ -16,15 +16,19 @@ from ..mesh.surface import Surface
 from ..support.arrays import Floats
 
 
-def totals(surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: str = "sum") -> dict[str, Floats]:
+def totals(
+    surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: str = "sum", rigidity: float = 1.0
+) -> dict[str, Floats]:
     """Every total that the given columns provide, (G,) or (G, 3), in the file's unit and the chosen convention for H.
 
     Totals that are odd under reversal of the orientation are NaN on groups without one; nulls in a column are left out.
+    rigidity: the bending rigidity, which energies are multiplied by.
     """
     found: dict[str, Floats] = {}
-    for key, total, length_exponent, mean_degree in _computed(surface, groups, columns):
+    for key, total, length_exponent, mean_degree, energy in _computed(surface, groups, columns):
         shown = surface.in_file_unit(total, length_exponent)
-        found[key] = shown * 0.5**mean_degree if mean == "average" else shown
+        shown = shown * 0.5**mean_degree if mean == "average" else shown
+        found[key] = shown * rigidity if energy else shown
     return found
 
 
@@ -33,7 +37,7 @@ def lost_totals(surface: Surface, columns: Mapping[str, Any]) -> list[str]:
     if not surface.unit_exponent:
         return []
     each = _computed(surface, surface.whole, columns)
-    return [key for key, total, length_exponent, _ in each if lost(surface, total, length_exponent)]
+    return [key for key, total, length_exponent, _, _ in each if lost(surface, total, length_exponent)]
 
 
 def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
@@ -43,8 +47,10 @@ def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
     return int(np.count_nonzero(np.isnan(surface.in_file_unit(values, length_exponent)) & ~np.isnan(values)))
 
 
-def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> Iterator[tuple[str, Floats, int, int]]:
-    """Key, values in the unit of computation, length exponent and degree in H of every total."""
+def _computed(
+    surface: Surface, groups: Groups, columns: Mapping[str, Any]
+) -> Iterator[tuple[str, Floats, int, int, bool]]:
+    """Key, values in the unit of computation, length exponent, degree in H and kind (energy or not) of every total."""
     orientable = count_groups(surface, groups).orientable
     for quantity in summed(columns):
         total = _sum(groups.of(surface, quantity.on), quantity, columns[quantity.name])
@@ -53,9 +59,9 @@ def _computed(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> I
         if total.ndim == 1 and passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0]):
             known = groups.of(surface, quantity.on).count_true(~np.isnan(columns[quantity.name]))
             total = np.where(known > 0, total, np.nan)  # no estimate anywhere is no energy of 0
-        yield str(quantity.total), total, quantity.length_exponent, quantity.mean_degree
+        yield str(quantity.total), total, quantity.length_exponent, quantity.mean_degree, quantity.energy
         if quantity.total == "area":
-            yield "volume", volumes(surface, groups), 3, 0
+            yield "volume", volumes(surface, groups), 3, 0, False
 
 
 def summed(names: Collection[str]) -> list[Quantity]:

@@ -52,6 +52,8 @@ class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     normals: str = "mesh"
     noise: float | None = None
     stat: tuple[str, ...] = ()
+    parameters: dict[str, bool | int | float | str | dict[str, bool | int | float | str]] = {}
+    bending_rigidity: str | None = None
     input_format: str | None = None
     max_faces: int | None = None
     max_bytes: int | None = None

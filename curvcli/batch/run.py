@@ -32,7 +32,11 @@ from .outcome import explained
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
 
-_CONVENTIONS = (*("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise", "stat"),)
+_CONVENTIONS = (
+    *("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise", "stat"),
+    "parameters",
+    "bending_rigidity",
+)
 _WORST = ("fail", "pass", "not_applicable")
 
 

@@ -19,6 +19,7 @@ from .bounds import bounded
 from .configured import configuration
 from .meshes import each_mesh, input_of
 from .outputs import one_stdout, print_report, stdin_once, table_option
+from .settings import merge_settings, setting
 from .stems import stem
 from .talk import put, say
 
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
 @options.stat
 @options.reading
 @options.estimating
+@setting
 @options.as_json
 @options.get("totals.K")
 @options.schema
@@ -114,6 +116,7 @@ class AnalyzeRun:
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
         self.weld, self.configuration = parse_weld(weld), configuration()
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
+        merge_settings(conventions)
         self.passes, at_scale = options.chosen(passes, conventions)
         parse_statistics(conventions["stat"])
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose

@@ -16,6 +16,7 @@ from ..loading.limits import parse_weld
 from ..support.words import counted
 from . import options
 from .configured import configuration
+from .settings import merge_settings, setting
 from .talk import say
 
 if TYPE_CHECKING:
@@ -58,6 +59,7 @@ if TYPE_CHECKING:
 @options.stat
 @options.reading
 @options.estimating
+@setting
 @options.drawing
 @click.option("--force", is_flag=True, help="Start again in a DIR that is not empty and replace its outputs.")
 @options.strict
@@ -147,6 +149,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
     from ..output.write import check_appearance
     from ..report.phrases import shell_quoted
 
+    merge_settings(conventions)
     names, at_scale = options.chosen(passes, conventions)
     conventions["stat"] = parse_statistics(conventions["stat"])
     if any(one.startswith("regions.") for one in save) and conventions["regions"] is None:

@@ -15,6 +15,7 @@ from .bounds import bounded
 from .configured import configuration
 from .meshes import each_mesh, input_of
 from .outputs import stdin_once
+from .settings import merge_settings, setting
 from .talk import put, say
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ class _Requirements(click.Option):
 @options.regions
 @options.reading
 @options.estimating
+@setting
 @click.option(
     "--format",
     "report_format",
@@ -117,6 +119,7 @@ class CheckRun:
 
         self.meshes, self.conventions = meshes, conventions
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
+        merge_settings(conventions)
         self.weld = parse_weld(weld)
         self.output, self.force, self.quiet, self.verbose = output, force, quiet, verbose
         self.format = report_format or _SUFFIXES.get(os.path.splitext(output)[1].lower(), "text")

@@ -15,6 +15,7 @@ from .bounds import bounded
 from .configured import configuration
 from .meshes import input_of
 from .outputs import one_stdout, print_report, tables_and_reports
+from .settings import setting
 
 if TYPE_CHECKING:
     from ..analysis.maps import SurfaceMap
@@ -22,14 +23,16 @@ if TYPE_CHECKING:
 TABLES = ("vertices", "faces")
 # B of --map: the texture coordinates of A.
 TEXTURE = "uv"
+_SETTINGS = ("parameters", "spontaneous_curvature", "bending_rigidity")
 # Options that need --map, and options that exclude it.
 _DIFFERENCES = (
     *("rtol", "atol", "only", "ignore", "common", "passes", "area", "mean", "orient", "unit", "regions"),
-    *("rings", "radius", "normals", "noise", "exact"),
+    *("rings", "radius", "normals", "noise", "exact", *_SETTINGS),
 )
 _MAP = ("tables",)
 _CONVENTIONS = (
     *("passes", "area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise", "rtol"),
+    *_SETTINGS,
 )
 
 
@@ -83,6 +86,7 @@ _CONVENTIONS = (
 @options.passes
 @options.regions
 @options.estimating
+@setting
 @options.reading
 @options.force
 @options.schema

@@ -11,6 +11,7 @@ from ..loading.limits import parse_weld
 from ..report.compare.values import Difference, Tolerance, compare_reports, selector
 from .against_exact import accuracy, is_exact
 from .outputs import one_stdout, print_report
+from .settings import merge_settings
 from .sides import LoadedSide, both_sides, kind_of, stored_side
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ def compare(
     to_stdout = one_stdout(outputs, as_json, get, stream_format)
     parse_precision(precision)
     conventions["weld"] = parse_weld(conventions["weld"])
+    merge_settings(conventions)
+    given = given | ({"parameters"} if "spontaneous_curvature" in given else set())
     limits = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
     with Outputs(list(outputs), force) as files:
         found: Comparison | Accuracy

@@ -264,13 +264,15 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
 
 
 def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str], list[str]]:
-    """Columns asked for by -p and the options of `estimating`: their names, and the names at each scale.
+    """Columns asked for by -p and the options of `estimating` and `setting`: their names, and the names at each scale.
 
     Errors: UsageError for an unknown name or an invalid scale.
     """
     from ..curvatures.catalogue import at_scales, defaults, resolve
+    from ..curvatures.settings import implied
     from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 
     scales = parse_scales(settings["rings"], settings["radius"])
-    names = resolve(passes or defaults(bool(scales), settings.get("noise") is not None))
+    named = passes or defaults(bool(scales), settings.get("noise") is not None)
+    names = resolve([*named, *implied(settings["parameters"], settings["bending_rigidity"])])
     return names, at_scales(names, EstimatorSettings(scales or DEFAULTS.scales))

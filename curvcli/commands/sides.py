@@ -69,6 +69,7 @@ def _made_with(side: LoadedSide) -> dict[str, Any]:
     """Passes and conventions that make a mesh comparable with this stored side."""
     from ..curvatures.catalogue import load_passes
     from ..curvatures.registry import passes
+    from ..curvatures.settings import parse_described
     from ..mesh.scale import options_of
 
     load_passes()
@@ -88,6 +89,10 @@ def _made_with(side: LoadedSide) -> dict[str, Any]:
         made |= options_of(found["scale"])
     if found.get("noise") is not None:
         made["noise"] = float(found["noise"])
+    if found.get("settings") is not None:
+        made["parameters"] = parse_described(found["settings"])
+    if found.get("bending_rigidity") is not None:
+        made["bending_rigidity"] = found["bending_rigidity"]
     if found.get("weld") not in (None, "none"):
         made["weld"] = parse_weld(found["weld"])
     if found.get("regions") not in (None, "array"):

@@ -27,6 +27,7 @@ BUILT_IN = (
     "densities",
     "principal",
     "willmore",
+    "membranes",
     "conformal",
     "dirichlet",
     "averaged",

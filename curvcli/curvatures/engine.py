@@ -46,6 +46,18 @@ def arguments(
     return [answer(need) for need in one.needs]
 
 
+def values_of(one: Step, surface: Surface, settings: EstimatorSettings = DEFAULTS) -> dict[str, Any]:
+    """The values of a pass's own parameters by name, in the unit of computation."""
+    values = {each.name: settings.values.get(f"{one.name}.{each.name}", each.default) for each in one.settings}
+    if surface.unit_exponent:
+        for each in one.settings:
+            if each.length_exponent:
+                with np.errstate(over="ignore", under="ignore"):
+                    scaled = np.ldexp(values[each.name], -each.length_exponent * surface.unit_exponent)
+                values[each.name] = scaled if np.ndim(scaled) else float(scaled)
+    return values
+
+
 def schedule(passes: Provider, names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Step]:
     """Order the passes for the named quantities so that each comes after its needs."""
     graph: dict[str, set[str]] = {}
@@ -135,23 +147,26 @@ def _evaluate(
     for _, group in groupby(order, key=lambda one: one.pointwise or one.name):
         run = list(group)
         if run[0].pointwise:
-            found = _at_vertices(run, surface, have, area)
+            found = _at_vertices(run, surface, have, area, settings)
         else:
-            found = _named(run[0], arguments(run[0], surface, have, area, settings))
+            given = arguments(run[0], surface, have, area, settings)
+            found = _named(run[0], given, values_of(run[0], surface, settings))
         for array in found.values():
             array.setflags(write=False)
         have |= found
     return have
 
 
-def _named(one: Step, given: Iterable[Any]) -> dict[str, Array]:
+def _named(one: Step, given: Iterable[Any], values: Mapping[str, Any]) -> dict[str, Array]:
     """The results of a pass, by name."""
-    result = one.compute(*given)
+    result = one.compute(*given, **values)
     names = [quantity.name for quantity in one.provides]
     return dict(zip(names, result if len(names) > 1 else (result,), strict=True))
 
 
-def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array], area: str) -> dict[str, Array]:
+def _at_vertices(
+    run: Sequence[Step], surface: Surface, have: Mapping[str, Array], area: str, settings: EstimatorSettings
+) -> dict[str, Array]:
     """Run pointwise passes in blocks of vertices, in two threads.
 
     The results of one pass are still in the cache for the next.
@@ -164,12 +179,13 @@ def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array
     }
     given = {name: have[name] for one in run for name in needs(one, area) if name not in columns}
     masks = {name: getattr(surface, name) for one in run for name in one.needs if name in MASKS}
+    values = {one.name: values_of(one, surface, settings) for one in run}
 
     def fill(block: slice) -> None:
         here = {name: column[..., block] for name, column in given.items()}
         some: Any = SimpleNamespace(**{name: mask[block] for name, mask in masks.items()})
         for one in run:
-            found = _named(one, arguments(one, some, here, area))
+            found = _named(one, arguments(one, some, here, area), values[one.name])
             for name, part in found.items():
                 columns[name][..., block] = part
             here |= found
@@ -178,10 +194,10 @@ def _at_vertices(run: Sequence[Step], surface: Surface, have: Mapping[str, Array
     return columns
 
 
-def in_file_unit(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum") -> Array:
+def in_file_unit(quantity: Quantity, array: Array, surface: Surface, mean: str = "sum", rigidity: float = 1.0) -> Array:
     """Convert a column to the file's unit of length and the chosen convention for H, with codes as words.
 
-    Returns vectors as (n, 3).
+    rigidity: the bending rigidity, which energies are multiplied by. Returns vectors as (n, 3).
     """
     if quantity.labels:
         array = np.array(quantity.labels)[array]
@@ -189,5 +205,7 @@ def in_file_unit(quantity: Quantity, array: Array, surface: Surface, mean: str =
         array = surface.in_file_unit(array, quantity.length_exponent)
     if mean == "average" and quantity.mean_degree:
         array = array * 0.5**quantity.mean_degree
+    if quantity.energy and rigidity != 1:
+        array = array * rigidity
     array.setflags(write=False)
     return array.T if quantity.vector else array

@@ -11,7 +11,7 @@ VERTICES = (
     *("status", "degree", "K", "kappa_g", "K_comb", "K_plus", "K_minus", "K_abs", "A", "A_mixed", "A_voronoi", "A_vec"),
     *("H_vec", "area_gradient", "h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2"),
     *("kappa_max", "dir_1", "dir_2", "shape_index", "curvedness", "willmore", "willmore_hks", "willmore_perp"),
-    *("willmore_normal", "willmore_conformal", "K_ring", "h_ring", "kappa_1_ring", "kappa_2_ring"),
+    *("willmore_normal", "willmore_conformal", "helfrich", "K_ring", "h_ring", "kappa_1_ring", "kappa_2_ring"),
     *("K_corrected", "h_corrected"),
     *("kappa_1_corrected", "kappa_2_corrected", "dir_1_corrected", "dir_2_corrected", "K_fit", "h_fit", "kappa_1_fit"),
     *("kappa_2_fit", "dir_1_fit", "dir_2_fit", "condition_fit", "shape_index_ring", "curvedness_ring"),
@@ -26,7 +26,7 @@ COLUMNS = (*VERTICES, *EDGES, *FACES)
 TOTALS = (
     *("area", "volume", "K", "kappa_g", "A_vec", "H_vec", "H_sin", "H_theta", "H_tan", "K_plus", "K_minus", "K_abs"),
     *("willmore", "willmore_hks", "willmore_perp", "willmore_normal", "willmore_conformal", "dirichlet"),
-    *("willmore_ring", "willmore_corrected", "willmore_fit"),
+    *("helfrich", "willmore_ring", "willmore_corrected", "willmore_fit"),
 )
 
 

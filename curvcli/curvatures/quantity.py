@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
 from ..mesh.scale import PARAMETERS
+from .setting import Setting
 
 Element = Literal["vertex", "edge", "face"]
 QuantityKind = Literal["measure", "density", "angle", "length", "direction", "ratio", "count", "label", "flag"]
@@ -32,7 +33,8 @@ class Quantity:
     column: its name in the table of its element where that is not its own, which is unique among all elements.
     partner: the quantity it changes places with under reversal, as the larger curvature does with the smaller.
     line: a direction without a sign, ±d are the same. rooted: a root of a difference, of which rounding takes half of
-    the digits; None is rooted where something it needs is.
+    the digits; None is rooted where something it needs is. energy: a multiple of the bending rigidity κ, which
+    `--bending-rigidity` turns into k_BT or J.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Quantity:
     partner: str = ""
     line: bool = False
     rooted: bool | None = None
+    energy: bool = False
 
     @property
     def stem(self) -> str:
@@ -67,8 +70,10 @@ class Quantity:
         """Names of its scalar columns: three for a vector."""
         return tuple(f"{self.stem}_{axis}" for axis in "xyz") if self.vector else (self.stem,)
 
-    def unit(self, length: str | None) -> str:
-        """Its unit in terms of the unit of length, `1` for a pure number."""
+    def unit(self, length: str | None, energy: str | None = None) -> str:
+        """Its unit in terms of the units of length and of energy, `1` for a pure number."""
+        if self.energy:
+            return energy or "κ"
         exponent = self.length_exponent
         base = length or "length"
         return "1" if exponent == 0 else base if exponent == 1 else f"{base}^{exponent}"
@@ -87,6 +92,8 @@ class Step(Protocol):
     def needs(self) -> tuple[str, ...]: ...
     @property
     def pointwise(self) -> bool: ...
+    @property
+    def settings(self) -> tuple[Setting, ...]: ...
 
 
 class Provider(Protocol):

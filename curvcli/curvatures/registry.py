@@ -19,6 +19,7 @@ from ..mesh.scale import PARAMETERS
 from ..support.words import suggestion
 from .order import TOTAL_PLACES, ordered
 from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity
+from .setting import Setting, split_signature
 
 # The names of scales at the end of a column: `3rings`, `2.5e`, `r0.1`.
 _SCALE = re.compile(r"r\d[\d.e+-]*|\d[\d.e+-]*(rings|e)")
@@ -30,7 +31,7 @@ class Pass:
 
     pointwise: its values at a vertex depend on the arguments at that vertex only. Arguments are then columns and masks
     of vertices, results are numbers and flags, and the function is called with blocks of vertices.
-    registry: the registry of the pass.
+    settings: its parameters with defaults. registry: the registry of the pass.
     """
 
     name: str
@@ -38,25 +39,40 @@ class Pass:
     provides: tuple[Quantity, ...]
     needs: tuple[str, ...]
     pointwise: bool = False
+    settings: tuple[Setting, ...] = ()
     registry: Registry | None = field(default=None, repr=False, compare=False)
 
     def __reduce__(self) -> tuple[Callable[..., Pass], tuple[Registry | None, str]]:
         """Pickle a pass by the name of its function."""
         return getitem, (self.registry, self.name)
 
-    def __call__(self, surface: Any) -> Any:
+    def __call__(self, surface: Any, **values: Any) -> Any:
         """Its column on a surface ((V, 3) for a vector), or a dictionary of them if it provides several.
 
-        surface: a Surface, a path, a trimesh.Trimesh or a pair (points, faces).
+        surface: a Surface, a path, a trimesh.Trimesh or a pair (points, faces). values: of its parameters, in the unit
+        of the file. Errors: UsageError for an unknown parameter or a value of another type.
         """
         # scipy, which these import, is not needed to look a quantity up
         from ..loading.load import as_surface
+        from ..mesh.scale import EstimatorSettings
         from .engine import evaluate, in_file_unit
 
         surface = as_surface(surface)
-        found = evaluate(self.registry or passes, surface, [quantity.name for quantity in self.provides])
+        settings = EstimatorSettings(values={f"{self.name}.{k}": self._value(k, v, surface) for k, v in values.items()})
+        names = [quantity.name for quantity in self.provides]
+        found = evaluate(self.registry or passes, surface, names, settings=settings)
         shown = {q.name: in_file_unit(q, found[q.name], surface) for q in self.provides}
         return shown[self.provides[0].name] if len(shown) == 1 else shown
+
+    def _value(self, key: str, value: Any, surface: Any) -> Any:
+        """The value of a parameter; an array has one for each face."""
+        known = {setting.name: setting for setting in self.settings}
+        if key not in known:
+            way_out = suggestion(key, known) if known else "; it has none"
+            raise UsageError(f"pass {self.name} has no parameter {key!r}{way_out}")
+        if known[key].by_region and getattr(value, "shape", ()) == (surface.n_faces,):
+            return value
+        return known[key].convert(value, f"{self.name}.{key}")
 
 
 class Registry(Mapping[str, Pass]):
@@ -100,6 +116,7 @@ class Registry(Mapping[str, Pass]):
                 raise UsageError(f"pass {new.name} needs {need}, which no pass provides{way_out}")
         apart = {need for need in new.needs if need == SURFACE or need in PARAMETERS}
         apart |= {need for need in new.needs if need in self._providers and self.quantity(need).on != "vertex"}
+        apart |= {setting.name for setting in new.settings if setting.by_region}
         if new.pointwise and apart:
             raise UsageError(
                 f"pass {new.name} looks at one vertex at a time and needs {', '.join(sorted(apart))}, "
@@ -192,12 +209,17 @@ passes = Registry("curvcli.curvatures.catalogue")
 
 
 def curvature_pass(
-    provides: tuple[Quantity, ...] = (), *, pointwise: bool = False, **declaration: Any
+    provides: tuple[Quantity, ...] = (),
+    *,
+    pointwise: bool = False,
+    settings: Mapping[str, Setting] | None = None,
+    **declaration: Any,
 ) -> Callable[[Callable[..., Any]], Pass]:
     """Register a function as a pass.
 
     Without `provides`, the function's name is its one quantity and the keywords are the fields of `Quantity`; with it,
-    the function returns a tuple of arrays in that order. `pointwise`: see `Pass`.
+    the function returns a tuple of arrays in that order. `pointwise`: see `Pass`. Parameters of the function that have
+    a default are its settings; `settings` describes them by name.
     """
 
     def register(function: Callable[..., Any]) -> Pass:
@@ -205,7 +227,8 @@ def curvature_pass(
         text = inspect.cleandoc(function.__doc__ or "")
         quantities = provides or (Quantity(name, **declaration),)
         quantities = tuple(q if q.description else replace(q, description=text) for q in quantities)
-        new = Pass(name, function, quantities, tuple(inspect.signature(function).parameters), pointwise)
+        needs, described = split_signature(function, settings or {})
+        new = Pass(name, function, quantities, needs, pointwise, described)
         return passes.add(new)
 
     return register

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
 
 from ..errors import UsageError
 from ..support.words import pluralize
@@ -118,12 +118,14 @@ class EstimatorSettings:
 
     scales: each gives one column per estimator. normals: of the `mesh`, or those of the `file`.
     noise: standard deviation of each coordinate in the file's unit; None is the precision of the file.
+    values: of the parameters that passes have of their own, by PASS.NAME; an array has one for each face.
     Errors: UsageError for a noise that is negative or no number.
     """
 
     scales: tuple[Scale, ...] = (DEFAULT_SCALE,)
     normals: Literal["mesh", "file"] = "mesh"
     noise: float | None = None
+    values: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.noise is not None and not (math.isfinite(self.noise) and self.noise >= 0):

@@ -82,7 +82,8 @@ def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
         ignore=analysis.surface.boundary,
         floor=floor(analysis, quantity, values),
     )
-    return Colored(name, quantity, scale)
+    rigidity = analysis.conventions.rigidity
+    return Colored(name, quantity, scale, None if rigidity is None else rigidity.unit)
 
 
 def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] | None:

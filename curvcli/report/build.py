@@ -188,9 +188,9 @@ def merged(surface: Surface) -> int:
 
 @cached
 def _columns(analysis: Result) -> dict[str, ColumnStatistics]:
-    area, used, unit = analysis.columns["star_area"], analysis.surface.referenced, analysis.conventions.unit
+    area, used = analysis.columns["star_area"], analysis.surface.referenced
     return {
-        column: statistics(quantity, values, area, used, quantity.unit(unit))
+        column: statistics(quantity, values, area, used, analysis.conventions.unit_of(quantity))
         for quantity, column, values in described(analysis)
     }
 

@@ -23,7 +23,10 @@ POWERS = 4
 Coefficients = Annotated[list[float | None], msgspec.Meta(min_length=POWERS, max_length=POWERS)]
 
 # Conventions of the analysis, in the order of the report.
-CONVENTIONS = ("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals", "noise")
+CONVENTIONS = (
+    *("mean", "area", "orient", "weld", "unit", "regions", "scale", "normals", "noise", "settings"),
+    *("bending_rigidity",),
+)
 
 
 def vector(parts: Iterable[float | None]) -> list[float | None] | None:

@@ -64,7 +64,9 @@ def conventions(report: Report) -> dict[str, str]:
         "unit of length": chosen["unit"] or "that of the file",
         "undefined": "null: neither 0 nor left out of a count",
     }
-    described = ("mean", "area", "orient", "weld", "unit")
+    described = ("mean", "area", "orient", "weld", "unit", "bending_rigidity")
+    if chosen.get("bending_rigidity") is not None:
+        found["energies"] = f"times the bending rigidity κ = {chosen['bending_rigidity']}"
     return found | {key: str(value) for key, value in chosen.items() if key not in described and value is not None}
 
 

@@ -7,10 +7,23 @@ from typing import Any, TypedDict
 from ..curvatures.catalogue import load_passes, resolve
 from ..curvatures.quantity import CELL_AREA, NO_QUANTITIES, Quantity
 from ..curvatures.registry import passes
+from ..curvatures.settings import format_scalar
 from ..errors import UsageError
 from ..support.words import suggestion
 
 _BOLD = str.maketrans("", "", "*")
+
+
+class Knob(TypedDict):
+    """Parameter of a pass: the name behind `--set`, its type, default, unit and meaning."""
+
+    name: str
+    type: str
+    default: bool | int | float | str
+    unit: str
+    parity: str
+    by_region: bool
+    description: str
 
 
 class Facts(TypedDict):
@@ -33,6 +46,7 @@ class Facts(TypedDict):
     source: str
     needs: list[str]
     preset: str
+    parameters: list[Knob]
 
 
 def public() -> list[Quantity]:
@@ -77,7 +91,34 @@ def facts(quantity: Quantity) -> Facts:
         "source": quantity.source,
         "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in _needs(quantity.name)],
         "preset": smallest_preset(quantity),
+        "parameters": parameters(quantity.name),
     }
+
+
+def parameters(name: str) -> list[Knob]:
+    """Parameters of the pass that provides a quantity."""
+    owner = passes.provider(name)
+    return [
+        {
+            "name": f"{owner.name}.{each.name}",
+            "type": each.kind,
+            "default": each.default,
+            "unit": Quantity("", length_exponent=each.length_exponent).unit(None),
+            "parity": each.parity,
+            "by_region": each.by_region,
+            "description": each.description,
+        }
+        for each in owner.settings
+    ]
+
+
+def parameter_sentence(knob: Knob) -> str:
+    """A parameter in one line for people."""
+    unit = "" if knob["unit"] == "1" else f" {knob['unit']}"
+    parts = [knob["description"], f"default {format_scalar(knob['default'])}{unit}"]
+    parts += ["one value, or one for each region"] * knob["by_region"]
+    parts += ["changes sign when all faces are reversed"] * (knob["parity"] == "odd")
+    return "; ".join(part for part in parts if part)
 
 
 def _needs(name: str) -> list[str]:
@@ -140,6 +181,7 @@ def page() -> str:
             ("preset", shown["preset"]),
             ("source", shown["source"]),
             ("needs", ", ".join(shown["needs"])),
+            *((f"`--set {knob['name']}=…`", parameter_sentence(knob)) for knob in shown["parameters"]),
         ]
         parts.append(f"### `{quantity.name}` {shown['symbol']}\n")
         parts.append(f"{quantity.description}\n")

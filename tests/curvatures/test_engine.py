@@ -102,9 +102,9 @@ def test_each_pass_runs_once(monkeypatch: pytest.MonkeyPatch) -> None:
     counting = {}
     for name, one in passes.items():
 
-        def compute(*given: object, _name: str = name) -> object:
+        def compute(*given: object, _name: str = name, **values: object) -> object:
             runs[_name] += 1
-            return passes_before[_name].compute(*given)
+            return passes_before[_name].compute(*given, **values)
 
         counting[name] = replace(one, compute=compute)
     passes_before = dict(passes.items())

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...curvatures.quantity import Quantity
+from ...curvatures.registry import passes
 from ...support.words import counted
 from .colors import ColorScale, parse_range
 
@@ -21,14 +22,17 @@ _BOLD = str.maketrans("", "", "*")
 
 @dataclass(frozen=True)
 class Colored:
-    """Column with its colours, for one panel of a picture."""
+    """Column with its colours, for one panel of a picture; energy: the unit of energies, None for κ."""
 
     name: str
     quantity: Quantity
     scale: ColorScale
+    energy: str | None = None
 
     def unit(self, length: str | None) -> str:
         """Unit with raised exponents, empty for a pure number or labels."""
+        if self.quantity.energy:
+            return self.quantity.unit(length, self.energy)
         exponent = self.quantity.length_exponent
         if exponent == 0:
             return ""
@@ -119,6 +123,8 @@ def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
         choices[-1] += ", positive where convex"
     if any(analysis.depends_on_area(quantity.name) for quantity in quantities):
         choices.append(f"area {chosen.area}")
+    if chosen.settings is not None and any(passes.provider(quantity.name).settings for quantity in quantities):
+        choices.append(chosen.settings)
     if chosen.weld != "none":
         choices.append(f"weld {chosen.weld}")
     return choices

@@ -139,7 +139,7 @@ def _numbers(value: Any) -> list[float] | None:
 
 def leaves(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:
     """Every compared value of a report, with the scale for its moves."""
-    for name in ("mean", "area", "orient", "unit", "regions", "scale", "normals"):
+    for name in ("mean", "area", "orient", "unit", "regions", "scale", "normals", "settings", "bending_rigidity"):
         yield ("conventions", name), Leaf(report["conventions"].get(name))
     flatness = _flattest(report)
     yield from _piece(report, (), flatness)

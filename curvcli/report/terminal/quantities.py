@@ -8,7 +8,7 @@ from typing import Any
 from rich.table import Table
 
 from ..advice import as_text
-from ..quantities import facts, find, public
+from ..quantities import facts, find, parameter_sentence, public
 from .console import escape, report_console
 from .fitting import fitting, plain_table
 
@@ -62,5 +62,7 @@ def describe(name: str) -> None:
     for key, label in labels.items():
         value = ", ".join(shown[key]) if isinstance(shown[key], list) else shown[key]
         if value:
-            table.add_row(label, escape(value))
+            table.add_row(label, escape(" ".join(value.split())))
+    for knob in shown["parameters"]:
+        table.add_row("--set", escape(f"{knob['name']}=VALUE: {parameter_sentence(knob)}"))
     report_console().print(table)

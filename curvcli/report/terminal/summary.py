@@ -140,7 +140,11 @@ def _conventions(report: Report) -> str:
         rest += f", normals of the {chosen['normals']}"
     if chosen["noise"] is not None:
         rest += f"; noise {float(chosen['noise']):.2g}"
-    return f"H = {mean}, positive where convex; {rest}"
+    if chosen["settings"] is not None:
+        rest += f"; {chosen['settings']}"
+    if chosen["bending_rigidity"] is not None:
+        rest += f"; κ = {chosen['bending_rigidity']}"
+    return escape(f"H = {mean}, positive where convex; {rest}")
 
 
 def _value(value: Any) -> str:
