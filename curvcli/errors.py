@@ -79,8 +79,8 @@ class Notice:
     @classmethod
     def of(cls, code: str, some: Sequence[int | str], message: str, hint: str | None, count: int) -> Notice:
         """A notice with a count and the first few examples; `[one|many]` in the texts follows the count."""
-        words = None if hint is None else pluralize(count, hint)
-        return cls(code, count, pluralize(count, message), words, tuple(some[:5]))
+        advice = None if hint is None else pluralize(count, hint)
+        return cls(code, count, pluralize(count, message), advice, tuple(some[:5]))
 
 
 # The exit codes of the interface.

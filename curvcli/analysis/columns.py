@@ -20,14 +20,14 @@ class Holder(Protocol):
 
 def named(analysis: Holder, element: Element) -> dict[str, tuple[Quantity, int | None]]:
     """Quantity of each column of an element that an analysis has, and the component for a column of a vector."""
-    found: dict[str, tuple[Quantity, int | None]] = {}
-    offered = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
-    for quantity in map(passes.quantity, offered):
+    columns: dict[str, tuple[Quantity, int | None]] = {}
+    names = analysis.chosen if element == "vertex" else [quantity.name for quantity in passes.quantities(element)]
+    for quantity in map(passes.quantity, names):
         if quantity.on == element:
-            found[quantity.stem] = (quantity, None)
+            columns[quantity.stem] = (quantity, None)
             if quantity.vector:
-                found |= {column: (quantity, k) for k, column in enumerate(quantity.columns)}
-    return found
+                columns |= {column: (quantity, k) for k, column in enumerate(quantity.columns)}
+    return columns
 
 
 class Columns(Mapping[str, Array]):

@@ -19,10 +19,10 @@ class Configuration(msgspec.Struct, frozen=True):
     @property
     def sentence(self) -> str:
         """One line for people."""
-        return escape_text(f"configuration: {self.file} sets {self.words}")
+        return escape_text(f"configuration: {self.file} sets {self.settings}")
 
     @property
-    def words(self) -> str:
+    def settings(self) -> str:
         """Every option with its value."""
         return escape_text(
             ", ".join(f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in self.sets.items())
@@ -33,11 +33,15 @@ Configured = Configuration | msgspec.UnsetType
 """Field of a report; absent where the verdict does not depend on a configuration file."""
 
 
-def configured(found: Configuration | None) -> Configured:
+def configured(configuration: Configuration | None) -> Configured:
     """Configuration as the field of a report."""
-    return msgspec.UNSET if found is None else msgspec.structs.replace(found, file=escape_text(found.file))
+    return (
+        msgspec.UNSET
+        if configuration is None
+        else msgspec.structs.replace(configuration, file=escape_text(configuration.file))
+    )
 
 
-def sentence(found: Configured) -> str | None:
+def sentence(field: Configured) -> str | None:
     """Sentence for a field of a report; None where it is absent."""
-    return None if isinstance(found, msgspec.UnsetType) else found.sentence
+    return None if isinstance(field, msgspec.UnsetType) else field.sentence

@@ -40,12 +40,12 @@ def orientation(source: Surface, image: Surface, stretch: Stretch) -> Floats:
         return _majority(sign * below, source.orientation.patch, stretch.image_area, known)
     wound = source.orientation.face_sign
     sign = sign if wound is None else sign * wound
-    found = _majority(sign, source.orientation.patch, stretch.image_area, known)
+    majority = _majority(sign, source.orientation.patch, stretch.image_area, known)
     one_sided = ~source.orientation.orientable[source.orientation.patch]
     if one_sided.any():
         carried = _majority(*_carried(source, image, known), stretch.image_area, known)
-        found[one_sided] = carried[one_sided]
-    return found
+        majority[one_sided] = carried[one_sided]
+    return majority
 
 
 def _signed_areas(surface: Surface) -> Floats | None:
@@ -71,26 +71,26 @@ def _signed_areas(surface: Surface) -> Floats | None:
 
 def _carried(source: Surface, image: Surface, known: Mask) -> tuple[Floats, Index]:
     """(F,) signs carried from face to face, 0 where they contradict each other, and the piece of each face."""
-    one, other = source.edges.pairs
-    usable = known[one // 3] & known[other // 3]
-    one, other = one[usable], other[usable]
-    against = same_direction(source.faces, one, other)
-    one, other = one // 3, other // 3
-    bends = [_bend(surface, source.faces, one, other, against) for surface in (source, image)]
+    half_edge, twin = source.edges.pairs
+    usable = known[half_edge // 3] & known[twin // 3]
+    half_edge, twin = half_edge[usable], twin[usable]
+    against = same_direction(source.faces, half_edge, twin)
+    face, neighbour = half_edge // 3, twin // 3
+    bends = [_bend(surface, source.faces, face, neighbour, against) for surface in (source, image)]
     folded = np.abs(bends[0] - bends[1]) > np.pi / 2 + 64 * EPSILON
     # Double cover: each face with either side up.
     count = source.n_faces
-    ahead = np.where(folded, other + count, other), np.where(folded, other, other + count)
-    _, label = label_graph(2 * count, np.concatenate([one, one + count]), np.concatenate(ahead))
+    ahead = np.where(folded, neighbour + count, neighbour), np.where(folded, neighbour, neighbour + count)
+    _, label = label_graph(2 * count, np.concatenate([face, face + count]), np.concatenate(ahead))
     up, down = label[:count], label[count:]
     return np.sign(down - up).astype(np.float64), np.minimum(up, down)
 
 
-def _bend(surface: Surface, faces: Index, one: Index, other: Index, against: Mask) -> Floats:
+def _bend(surface: Surface, faces: Index, face: Index, neighbour: Index, against: Mask) -> Floats:
     """(E,) unsigned dihedral angle between two faces of each edge, 0 where they continue in a plane."""
-    angle = np.empty(len(one))
-    for block in slices(len(one)):
-        here, there = (np.array(triangles(surface.xyz, faces[side[block]]).normal) for side in (one, other))
+    angle = np.empty(len(face))
+    for block in slices(len(face)):
+        here, there = (np.array(triangles(surface.xyz, faces[side[block]]).normal) for side in (face, neighbour))
         with np.errstate(divide="ignore", invalid="ignore"):
             here, there = (normal / np.sqrt(dot(normal, normal)) for normal in (here, there))
         there = np.where(against[block], -there, there)

@@ -166,9 +166,9 @@ class SurfaceMap:
             ("image_area", s.image_area, self.image_area),
             ("gradient", self._gradient, self.gradient.T),
         ]
-        found = Counter({name: int(np.count_nonzero(np.isnan(at) & ~np.isnan(own))) for name, own, at in columns})
-        found.update({name: lost(unit, total, 2) for name, (unit, total) in self._sums.items()})
-        return found
+        counts = Counter({name: int(np.count_nonzero(np.isnan(at) & ~np.isnan(own))) for name, own, at in columns})
+        counts.update({name: lost(unit, total, 2) for name, (unit, total) in self._sums.items()})
+        return counts
 
     @cached_property
     def harmonic(self) -> tuple[float, int | None, float]:
@@ -234,8 +234,8 @@ class SurfaceMap:
                 "the image is folded; column orientation of `--table faces=PATH` is -1 there",
             ),
         )
-        found = [Notice.at(code, at, text, hint) for code, at, text, hint in defects if len(at)]
-        return [*found, *out_of_range(self._lost)]
+        notices = [Notice.at(code, at, text, hint) for code, at, text, hint in defects if len(at)]
+        return [*notices, *out_of_range(self._lost)]
 
     # ------------------------------------------------------------------ tables
 
@@ -262,14 +262,14 @@ def _on_same_faces(source: Surface, given: Any) -> Surface:
         return Surface(given, source.faces)
     image = as_surface(given)
     path = image.file.path if image.file else None
-    other = (source.file.path if source.file else None) or "the source"
+    named_source = (source.file.path if source.file else None) or "the source"
     hint = "a map needs the same vertices and faces in the same order"
-    for what, found, expected in (
+    for element, count, expected in (
         ("vertices", image.n_vertices, source.n_vertices),
         ("faces", image.n_faces, source.n_faces),
     ):
-        if found != expected:
-            raise InputError(f"has {found} {what}, expected {expected} as in {other}", path=path, hint=hint)
+        if count != expected:
+            raise InputError(f"has {count} {element}, expected {expected} as in {named_source}", path=path, hint=hint)
     differ = (image.faces != source.faces).any(axis=1)
     if differ.any():
         if _same_polygons(source, image):
@@ -277,13 +277,13 @@ def _on_same_faces(source: Surface, given: Any) -> Surface:
             return Surface(image.points, source.faces, polygon=source.polygon, file=image.file, notices=image.notices)
         face = int(np.argmax(differ))
         corners = [" ".join(map(str, surface.faces[face])) for surface in (image, source)]
-        problem = f"has corners {corners[0]}, expected {corners[1]} as in {other}"
+        problem = f"has corners {corners[0]}, expected {corners[1]} as in {named_source}"
         raise InputError(problem, path=path, place=f"face {face}", hint=hint)
     return image
 
 
 def _same_polygons(source: Surface, image: Surface) -> bool:
-    one, other = source.file, image.file
-    if one is None or other is None or one.sizes is None or other.sizes is None:
+    first, second = source.file, image.file
+    if first is None or second is None or first.sizes is None or second.sizes is None:
         return False
-    return np.array_equal(one.sizes, other.sizes) and np.array_equal(one.corners, other.corners)
+    return np.array_equal(first.sizes, second.sizes) and np.array_equal(first.corners, second.corners)

@@ -84,8 +84,8 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
 def _not_fitted(columns: Mapping[str, Any]) -> Iterator[Notice]:
     """Notices of the vertices of each scale where no polynomial over a plane fits the surface."""
     for name in sorted(columns):
-        plain, _, scale = name.partition(AT_SCALE)
-        if plain == "no_graph":
+        base, _, scale = name.partition(AT_SCALE)
+        if base == "no_graph":
             yield Notice.at(
                 "no_graph",
                 np.flatnonzero(columns[name]),
@@ -101,12 +101,12 @@ def _clamped(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
     Coordinates that change by one unit in the last place turn the edges of a flat star by about place/√A, and K is
     quadratic in that.
     """
-    found = np.flatnonzero(columns["kappa_clamped"])
-    if not len(found):
-        return found
+    clamped = np.flatnonzero(columns["kappa_clamped"])
+    if not len(clamped):
+        return clamped
     place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
-    turned = surface.degree[found] * place / np.sqrt(columns["star_area"][found])
-    kept: NDArray[np.intp] = found[np.abs(columns["K"][found]) > turned * turned]
+    turned = surface.degree[clamped] * place / np.sqrt(columns["star_area"][clamped])
+    kept: NDArray[np.intp] = clamped[np.abs(columns["K"][clamped]) > turned * turned]
     return kept
 
 

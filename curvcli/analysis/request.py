@@ -150,12 +150,12 @@ class Request:
 
     def conventions(self, surface: Surface) -> Conventions:
         """Conventions of the numbers of a surface; None for an option that no chosen column depends on."""
-        plain = {name.partition(AT_SCALE)[0] for name in self.chosen}
-        scaled = any(registry.depends_on_scale(name) for name in plain)
-        order = schedule(registry, plain, "barycentric")
-        used = {need for one in order for need in one.needs}
+        base_names = {name.partition(AT_SCALE)[0] for name in self.chosen}
+        scaled = any(registry.depends_on_scale(name) for name in base_names)
+        order = schedule(registry, base_names, "barycentric")
+        used = {need for step in order for need in step.needs}
         values: dict[str, SettingValue] = {
-            f"{one.name}.{each.name}": each.default for one in order for each in one.settings
+            f"{step.name}.{each.name}": each.default for step in order for each in step.settings
         }
         values |= {name: value for name, value in self.values.items() if name in values}
         settings = self.settings

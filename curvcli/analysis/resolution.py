@@ -56,9 +56,9 @@ def unscaled(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notic
 
     A column is left out if one of its estimates is chosen too.
     """
-    plain = {name.partition(AT_SCALE)[0] for name in chosen}
-    found = {name: counterparts(passes.quantity(name)) for name in sorted(plain)} if scales else {}
-    missed = {name: others for name, others in found.items() if others and plain.isdisjoint(others)}
+    base_names = {name.partition(AT_SCALE)[0] for name in chosen}
+    alternatives = {name: counterparts(passes.quantity(name)) for name in sorted(base_names)} if scales else {}
+    missed = {name: others for name, others in alternatives.items() if others and base_names.isdisjoint(others)}
     if missed:
         best = [
             next((other for other in others if other.endswith("_corrected")), others[0]) for others in missed.values()
@@ -75,8 +75,8 @@ def unscaled(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notic
 
 def beside(chosen: Iterable[str]) -> tuple[str, ...]:
     """Columns that `of_stars` needs to judge the chosen ones."""
-    plain = {name.partition(AT_SCALE)[0] for name in chosen}
-    return () if plain.isdisjoint(STARS) else ("h_signed",)
+    base_names = {name.partition(AT_SCALE)[0] for name in chosen}
+    return () if base_names.isdisjoint(STARS) else ("h_signed",)
 
 
 def of_stars(
@@ -138,21 +138,21 @@ def _apart(columns: Mapping[str, Any], scaled: Mapping[str, str], totals: Mappin
         > 2 * turned[known].sum() * np.maximum(square + bend, 0.5 * square).sum()
     ):
         return
-    found = []
+    differing = []
     for key, name in scaled.items():
         both = known & np.isfinite(columns[name])
-        one, other = float(star[both].sum()), float(columns[name][both].sum())
-        if not one <= 2 * other <= 4 * one:
-            found.append(key)
-    if found:
+        energy, scaled_energy = float(star[both].sum()), float(columns[name][both].sum())
+        if not energy <= 2 * scaled_energy <= 4 * energy:
+            differing.append(key)
+    if differing:
         values = ", ".join(f"{key} = {format_rounded(value, 4)}" for key, value in totals.items())
         yield Notice.of(
             "energy_at_scale",
             [],
             "[energy|energies] at a scale that [differs|differ] by more than a factor of 2 from that of stars, "
-            f"which is coherent from vertex to vertex: {', '.join(found)} ({values})",
+            f"which is coherent from vertex to vertex: {', '.join(differing)} ({values})",
             "the scale is wide against the shape, or sheets that lie near each other meet in it: take a smaller one",
-            len(found),
+            len(differing),
         )
 
 
@@ -197,8 +197,8 @@ def creases(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
     none = np.empty(0, np.intp)
     if not _bent_at_few(columns):
         return none
-    found = evaluate(passes, surface, ["theta", "edge_length"], known=columns)
-    theta, length = np.abs(found["theta"]), found["edge_length"]
+    columns_of_edges = evaluate(passes, surface, ["theta", "edge_length"], known=columns)
+    theta, length = np.abs(columns_of_edges["theta"]), columns_of_edges["edge_length"]
     known = np.isfinite(theta)
     sharp = known & (theta > SHARP)
     count, edges = int(np.count_nonzero(sharp)), int(np.count_nonzero(known))

@@ -88,16 +88,16 @@ class Result:
     @cached_property
     def _closure(self) -> set[str]:
         """Every quantity that is computed for the chosen ones."""
-        plain = (name.partition(AT_SCALE)[0] for name in self.chosen)
-        order = schedule(passes, [*plain, *_ALWAYS], self.request.area)
-        return {quantity.name for one in order for quantity in one.provides}
+        base_names = (name.partition(AT_SCALE)[0] for name in self.chosen)
+        order = schedule(passes, [*base_names, *_ALWAYS], self.request.area)
+        return {quantity.name for step in order for quantity in step.provides}
 
     @cached_property
     def _totalled(self) -> list[str]:
         """Quantities with totals; of several scales, those whose column is chosen."""
         scaled = [name for name in self.chosen if AT_SCALE in name]
-        plain = [name for name in self._closure if not (scaled and passes.depends_on_scale(name))]
-        return [quantity.name for quantity in summed([*plain, *scaled])]
+        unscaled = [name for name in self._closure if not (scaled and passes.depends_on_scale(name))]
+        return [quantity.name for quantity in summed([*unscaled, *scaled])]
 
     @cached_property
     def _flags(self) -> list[str]:
@@ -132,19 +132,21 @@ class Result:
         missing = {*names} - self.columns.keys() - self.besides.keys()
         if missing:
             known = {**self.columns, **self.besides}
-            found = evaluate(passes, self.surface, missing, area=self.request.area, settings=self.settings, known=known)
-            self.besides |= {name: found[name] for name in missing}
+            columns = evaluate(
+                passes, self.surface, missing, area=self.request.area, settings=self.settings, known=known
+            )
+            self.besides |= {name: columns[name] for name in missing}
 
     def with_noise(self, names: Collection[str], noise: float) -> dict[str, Array]:
         """Quantities for another standard deviation of the coordinates, in the unit of computation."""
         settings = replace(self.settings, noise=noise)
         known = {name: column for name, column in self.columns.items() if name not in names}
-        found = evaluate(passes, self.surface, names, area=self.request.area, settings=settings, known=known)
-        return {name: found[name] for name in names}
+        columns = evaluate(passes, self.surface, names, area=self.request.area, settings=settings, known=known)
+        return {name: columns[name] for name in names}
 
     def depends_on_area(self, name: str) -> bool:
         """True if a quantity follows from the cell area of the request."""
-        return any(CELL_AREA in one.needs for one in schedule(passes, [name], self.request.area))
+        return any(CELL_AREA in step.needs for step in schedule(passes, [name], self.request.area))
 
     @property
     def vertices(self) -> Columns:
@@ -180,20 +182,20 @@ class Result:
     @cached_property
     def checks(self) -> list[Check]:
         """Every identity that the chosen passes allow to be tested, on the whole and on each component."""
-        found = [check for rule in self._rules for check in rule.run(self.surface, self.surface.whole, self.columns)]
+        checks = [check for rule in self._rules for check in rule.run(self.surface, self.surface.whole, self.columns)]
         if self.surface.components.count > 1:
-            found += self._checked(self.surface.components)
+            checks += self._checked(self.surface.components)
         if self.cut is not None:
-            found += self.cut._checked(self.cut_groups)
-        return found
+            checks += self.cut._checked(self.cut_groups)
+        return checks
 
     def _checked(self, groups: Groups) -> list[Check]:
         """Checks of every group; of very many groups, those that fail."""
-        found: list[Check] = []
+        checks: list[Check] = []
         for rule in self._rules:
             each = rule.run(self.surface, groups, self.columns)
-            found += each if groups.count <= LISTED_GROUPS else summarise_checks(each, f"{groups.kind}s")
-        return found
+            checks += each if groups.count <= LISTED_GROUPS else summarise_checks(each, f"{groups.kind}s")
+        return checks
 
     @property
     def passed(self) -> bool:
@@ -207,25 +209,25 @@ class Result:
 
     @cached_property
     def _findings(self) -> list[Notice]:
-        found = findings.of_surface(self.surface, self.columns)
+        notices = findings.of_surface(self.surface, self.columns)
         asked = self.settings.scales != DEFAULTS.scales
-        found += of_stars(self.surface, self.columns, self.chosen, self.totals, asked)
-        found += findings.out_of_range(self._lost)
+        notices += of_stars(self.surface, self.columns, self.chosen, self.totals, asked)
+        notices += findings.out_of_range(self._lost)
         if self.cut is not None and self.regions is not None:
-            found += region_notices(self.cut.surface, self.cut_groups, self.regions)
-        return found
+            notices += region_notices(self.cut.surface, self.cut_groups, self.regions)
+        return notices
 
     @property
     def _lost(self) -> Counter[str]:
         """Number of values of each chosen column and total that are beyond the range of doubles in the file's unit."""
-        found: Counter[str] = Counter()
+        counts: Counter[str] = Counter()
         if self.surface.unit_exponent:
             for quantity in map(passes.quantity, self.chosen):
                 if not quantity.labels:
                     values = self.columns[quantity.name]
-                    found[quantity.stem] += lost(self.surface, values, quantity.length_exponent)
-            found.update(lost_totals(self.surface, self.columns))
-        return found
+                    counts[quantity.stem] += lost(self.surface, values, quantity.length_exponent)
+            counts.update(lost_totals(self.surface, self.columns))
+        return counts
 
 
 def or_null(value: Any) -> Any:

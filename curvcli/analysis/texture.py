@@ -56,8 +56,8 @@ class TextureMap(SurfaceMap):
         message = "[edge|edges] along which the texture is cut; vertices there count as boundary"
         hint = "the energy is that of the surface cut open: the sum over its faces"
         seams = Notice.of("texture_seams", (), message, hint, self.seams or 0)
-        found = super().notices
-        return [seams, *found] if seams.count else found
+        notices = super().notices
+        return [seams, *notices] if seams.count else notices
 
     @cached_property
     def harmonic(self) -> tuple[float, int | None, float]:
@@ -74,11 +74,13 @@ def _coordinates(surface: Surface) -> Floats:
     """(2, F, 3) coordinates at the corners of the faces."""
     file = surface.file
     path = file.path if file is not None else None
-    found = None if file is None else _of_corners(file, surface) if file.corner_texture is not None else _of_file(file)
-    if found is None:
+    coordinates = (
+        None if file is None else _of_corners(file, surface) if file.corner_texture is not None else _of_file(file)
+    )
+    if coordinates is None:
         hint = "expected `vt` records in an OBJ file, or vertex properties s and t, or u and v, in a PLY file"
         raise InputError("has no texture coordinates", path=path, hint=hint)
-    uv = found if found.ndim == 3 else found[:, surface.faces]
+    uv = coordinates if coordinates.ndim == 3 else coordinates[:, surface.faces]
     bad = np.flatnonzero(~np.isfinite(uv).all(axis=(0, 2)))
     if len(bad):
         problem = f"{len(bad)} of {surface.n_faces} faces have a corner without texture coordinates, expected none"
@@ -123,8 +125,8 @@ def _cut(faces: Index, uv: Floats) -> tuple[NDArray[np.int64], Index]:
 
 def _seams(surface: Surface, faces: Index) -> int:
     """Number of edges whose two faces have different texture coordinates at its ends."""
-    one, other = surface.edges.pairs
-    same = same_direction(surface.faces, one, other)
-    ends = [faces.ravel()[side] for side in (one, next_corner(one), other, next_corner(other))]
+    half_edge, twin = surface.edges.pairs
+    same = same_direction(surface.faces, half_edge, twin)
+    ends = [faces.ravel()[side] for side in (half_edge, next_corner(half_edge), twin, next_corner(twin))]
     tail, head = np.where(same, ends[2], ends[3]), np.where(same, ends[3], ends[2])
     return int(np.count_nonzero((ends[0] != tail) | (ends[1] != head)))

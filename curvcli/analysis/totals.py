@@ -24,12 +24,12 @@ def totals(
     Totals that are odd under reversal of the orientation are NaN on groups without one; nulls in a column are left out.
     rigidity: the bending rigidity, which energies are multiplied by.
     """
-    found: dict[str, Floats] = {}
+    totals_by_key: dict[str, Floats] = {}
     for key, total, length_exponent, mean_degree, energy in _computed(surface, groups, columns):
         shown = surface.in_file_unit(total, length_exponent)
         shown = shown * 0.5**mean_degree if mean == "average" else shown
-        found[key] = shown * rigidity if energy else shown
-    return found
+        totals_by_key[key] = shown * rigidity if energy else shown
+    return totals_by_key
 
 
 def lost_totals(surface: Surface, columns: Mapping[str, Any]) -> list[str]:

@@ -60,7 +60,7 @@ class Batch:
             if row.status in _WRITTEN:
                 names = self._shown(self._paths[row.path])
                 row.outputs = [
-                    msgspec.structs.replace(one, path=name) for name, one in zip(names, row.outputs, strict=True)
+                    msgspec.structs.replace(output, path=name) for name, output in zip(names, row.outputs, strict=True)
                 ]
             row = self._coded(row)
             self.manifest.append(row)
@@ -86,11 +86,11 @@ class Batch:
 
     def _whole(self, row: Row, item: BatchItem) -> bool:
         """True if every output is unchanged, byte for byte; lengths are compared first."""
-        if [one.path for one in row.outputs] != self._shown(item):
+        if [output.path for output in row.outputs] != self._shown(item):
             return False
-        pairs = [(one, path) for one, (_, path) in zip(row.outputs, item.outputs, strict=True)]
-        lengths = all(length_of(path) == one.bytes for one, path in pairs)
-        return lengths and all(hash_of(path) == one.sha256 for one, path in pairs)
+        pairs = [(output, path) for output, (_, path) in zip(row.outputs, item.outputs, strict=True)]
+        lengths = all(length_of(path) == output.bytes for output, path in pairs)
+        return lengths and all(hash_of(path) == output.sha256 for output, path in pairs)
 
     def _coded(self, row: Row) -> Row:
         failed = FAILED_CHECK if self.strict else OK

@@ -87,8 +87,8 @@ def _client(stack: ExitStack, scheduler: str) -> Any:
 
 def _check_versions(client: Any, scheduler: str) -> None:
     """Refuse workers with another version of curvcli."""
-    found = client.run(_version, on_error="return")
-    others = {str(version) for version in found.values()} - {__version__}
+    versions = client.run(_version, on_error="return")
+    others = {str(version) for version in versions.values()} - {__version__}
     if others:
         raise UsageError(
             f"--scheduler {scheduler}: curvcli {__version__} here, {', '.join(sorted(others))} on the workers; "

@@ -49,18 +49,18 @@ def local(place: str) -> str:
 
 def root_of(pattern: str) -> tuple[str, ...]:
     """Folder down to the first wildcard, as parts; outputs mirror the tree below it."""
-    parts = parts_of(pattern)[:-1]
+    folders = parts_of(pattern)[:-1]
     if os.path.lexists(pattern):
-        return parts
-    return parts[: next((place for place, part in enumerate(parts) if is_wild(part)), len(parts))]
+        return folders
+    return folders[: next((place for place, part in enumerate(folders) if is_wild(part)), len(folders))]
 
 
 def parts_of(place: str) -> tuple[str, ...]:
     """Parts of an absolute path or URL, each usable as the name of a folder."""
     if is_url(place):
         url = urlsplit(place)
-        parts = (url.scheme, url.netloc, *unquote(url.path).split("/"))
-        return tuple(escape_text(part).replace(os.sep, "_") for part in parts if part not in ("", ".", ".."))
+        segments = (url.scheme, url.netloc, *unquote(url.path).split("/"))
+        return tuple(escape_text(part).replace(os.sep, "_") for part in segments if part not in ("", ".", ".."))
     drive, rest = os.path.splitdrive(absolute(place))
     return (drive.strip(":\\/").replace("\\", "_"), *(part for part in rest.split(os.sep) if part))
 
@@ -71,11 +71,11 @@ def expand(pattern: str) -> list[str]:
     Errors: NoMatchError without a match; InputError for a URL that cannot be listed, UsageError for an unknown kind of
     URL, MissingExtraError without the package that reads it.
     """
-    found = _expand_url(pattern) if is_url(pattern) else _expand_path(pattern)
-    if not found:
+    paths = _expand_url(pattern) if is_url(pattern) else _expand_path(pattern)
+    if not paths:
         hint = f"; {pattern.rstrip(os.sep)}/**/* names the files in this folder" if os.path.isdir(pattern) else ""
         raise NoMatchError(f"{escape_text(pattern)}: no file matches{hint}")
-    return found
+    return paths
 
 
 def _expand_path(pattern: str) -> list[str]:
@@ -93,8 +93,8 @@ def _expand_url(pattern: str) -> list[str]:
         folder, slash, last = path.rpartition("/")
         paths = [f"{folder}{slash}{spelling}" for spelling in spellings(last)]
         names = {str(name) for spelt in paths for name in files.glob(spelt)}
-        found = [name for name in names if not name.endswith("/")]
-        return sorted(str(files.unstrip_protocol(name)) for name in found if _is_file(files, name))
+        files_found = [name for name in names if not name.endswith("/")]
+        return sorted(str(files.unstrip_protocol(name)) for name in files_found if _is_file(files, name))
     except Exception as error:
         raise InputError(f"cannot be listed ({_reason(error)})", path=escape_text(pattern)) from error
 
@@ -130,13 +130,13 @@ def _file_system(place: str) -> tuple[Any, str]:
     try:
         from fsspec.core import url_to_fs
 
-        found: tuple[Any, str] = url_to_fs(place)
+        opened: tuple[Any, str] = url_to_fs(place)
     except ImportError as error:
         install = "pip install 'curvcli[remote]'"
         raise MissingExtraError(f"{escape_text(place)}: {_reason(error)}; `{install}` reads http and s3") from None
     except Exception as error:
         raise UsageError(f"{escape_text(place)}: {_reason(error)}") from None
-    return found
+    return opened
 
 
 def _reason(error: BaseException) -> str:

@@ -65,7 +65,7 @@ class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
         """Hash that tells a later run if the settings are the same; plug-ins count with their versions."""
         from importlib.metadata import entry_points
 
-        plug_ins = [(one.name, one.dist and one.dist.version) for one in entry_points(group="curvcli.passes")]
+        plug_ins = [(entry.name, entry.dist and entry.dist.version) for entry in entry_points(group="curvcli.passes")]
         which = msgspec.to_builtins([msgspec.structs.replace(self, command=None, configuration=None), sorted(plug_ins)])
         return hashlib.sha256(json.dumps(which).encode("ascii")).hexdigest()  # not UTF-8, which some labels are not
 

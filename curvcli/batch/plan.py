@@ -35,10 +35,10 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
     of_folder: dict[str, str] = {}
     within = inside, os.path.join(os.path.realpath(inside), "")
     for pattern in map(local, patterns):
-        found = [name for name in expand(pattern) if name == pattern or not _is_output(name, within, of_folder)]
-        if not found:
+        paths = [name for name in expand(pattern) if name == pattern or not _is_output(name, within, of_folder)]
+        if not paths:
             raise NoMatchError(f"{escape_text(pattern)}: no file matches outside {escape_text(folder)}")
-        named += [(name, _place(name)) for name in found]
+        named += [(name, _place(name)) for name in paths]
         roots.append(root_of(pattern))
     for name in map(local, listed(files_from) if files_from is not None else []):
         named.append((name, _place(name)))
@@ -65,7 +65,7 @@ def plan(patterns: Iterable[str], files_from: str | None, folder: str, save: Seq
 
 def outputs(stem: str, save: Iterable[str]) -> tuple[tuple[str, str], ...]:
     """Kind and path of every output of one mesh."""
-    return tuple((_split(one)[0], f"{stem}.{one}") for one in save)
+    return tuple((_split(entry)[0], f"{stem}.{entry}") for entry in save)
 
 
 def saves(options: Iterable[str]) -> tuple[str, ...]:
@@ -73,20 +73,20 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
 
     Errors: UsageError for an unknown suffix or kind.
     """
-    found: dict[str, None] = {}
-    for one in (part.strip().lower().lstrip(".") for option in options for part in option.split(",")):
-        kind, suffix = _split(one)
+    chosen: dict[str, None] = {}
+    for text in (part.strip().lower().lstrip(".") for option in options for part in option.split(",")):
+        kind, suffix = _split(text)
         if kind and (kind not in TABLES or kind == "vertices"):
             way_out = suggestion(kind, (kind for kind in TABLES if kind != "vertices"))
             raise UsageError(
-                f"--save {escape_text(one)}: there is no table {escape_text(kind)!r}{way_out}; expected KIND.SUFFIX"
+                f"--save {escape_text(text)}: there is no table {escape_text(kind)!r}{way_out}; expected KIND.SUFFIX"
             )
         try:
             format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "page", "picture"])
         except UsageError as error:
-            raise UsageError(f"--save {escape_text(one)}: {str(error).partition(': ')[2]}") from None
-        found[one] = None
-    return tuple(found)
+            raise UsageError(f"--save {escape_text(text)}: {str(error).partition(': ')[2]}") from None
+        chosen[text] = None
+    return tuple(chosen)
 
 
 def _split(save: str) -> tuple[str, str]:
@@ -97,7 +97,7 @@ def _split(save: str) -> tuple[str, str]:
 
 def _shared(roots: Sequence[tuple[str, ...]]) -> int:
     """Number of parts that all roots begin with."""
-    return next((k for k, parts in enumerate(zip(*roots, strict=False)) if len(set(parts)) > 1), min(map(len, roots)))
+    return next((k for k, level in enumerate(zip(*roots, strict=False)) if len(set(level)) > 1), min(map(len, roots)))
 
 
 def _place(name: str) -> str:
@@ -121,13 +121,13 @@ class _Free:
         self._files = {folded(os.path.join(folder, name)) for name in OWN}
         self._folders = {folded(os.path.normpath(folder))}
 
-    def stem(self, parts: Sequence[str]) -> str:
+    def stem(self, folders: Sequence[str]) -> str:
         """Reserve and return the name of the outputs of one mesh without suffixes."""
         folder = self._folder
-        for part in parts[:-1]:
+        for part in folders[:-1]:
             folder = next(path for path in _numbered(os.path.join(folder, part)) if folded(path) not in self._files)
             self._folders.add(folded(folder))
-        for stem in _numbered(os.path.join(folder, *parts[-1:])):
+        for stem in _numbered(os.path.join(folder, *folders[-1:])):
             wanted = {folded(path) for _, path in outputs(stem, self._save)}
             if not wanted & (self._files | self._folders):
                 break

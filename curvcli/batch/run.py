@@ -110,13 +110,13 @@ def _written(item: BatchItem) -> list[Written]:
 
     Errors: OutputError for one that was removed already.
     """
-    found = []
+    records = []
     for _, path in item.outputs:
         length, digest = length_of(path), hash_of(path)
         if length is None or digest is None:
             raise OutputError(f"{escape_text(path)}: was written and is gone")
-        found.append(Written(escape_text(path), length, digest))
-    return found
+        records.append(Written(escape_text(path), length, digest))
+    return records
 
 
 def _make(folder: str) -> None:

@@ -28,8 +28,11 @@ def write_summary(folder: str, rows: Sequence[Row]) -> None:
     paths = [os.path.join(folder, name) for name in (CSV, PARQUET)]
     with Outputs(paths, force=True) as outputs:
         with outputs.open(paths[0]) as stream:
-            words = [name for name, dtype in table.schema.items() if dtype == pl.String]
-            safe = [pl.Series(name, [word and escape_cell(word) for word in table[name]], pl.String) for name in words]
+            text_columns = [name for name, dtype in table.schema.items() if dtype == pl.String]
+            safe = [
+                pl.Series(name, [word and escape_cell(word) for word in table[name]], pl.String)
+                for name in text_columns
+            ]
             table.with_columns(safe).write_csv(cast("IO[bytes]", stream))
         with outputs.open(paths[1]) as stream:
             table.write_parquet(cast("IO[bytes]", stream))
@@ -46,23 +49,23 @@ def frame(rows: Sequence[Row]) -> pl.DataFrame:
         columns[f"topology.{name}"] = pl.Series([row.topology.get(name) for row in rows], dtype=dtype)
     flat = [_totals(row) for row in rows]
     for name in _names(flat):
-        columns[f"totals.{name}"] = pl.Series([one.get(name) for one in flat], dtype=pl.Float64)
+        columns[f"totals.{name}"] = pl.Series([totals.get(name) for totals in flat], dtype=pl.Float64)
     for name in _names(row.checks for row in rows):
         each = [row.checks.get(name, {}) for row in rows]
-        columns[f"checks.{name}.status"] = pl.Series([one.get("status") for one in each], dtype=pl.String)
-        columns[f"checks.{name}.residual"] = pl.Series([one.get("residual") for one in each], dtype=pl.Float64)
+        columns[f"checks.{name}.status"] = pl.Series([check.get("status") for check in each], dtype=pl.String)
+        columns[f"checks.{name}.residual"] = pl.Series([check.get("residual") for check in each], dtype=pl.Float64)
     return pl.DataFrame([series.alias(name) for name, series in columns.items()])
 
 
 def _totals(row: Row) -> dict[str, Any]:
     """Totals, vectors by their components."""
-    found: dict[str, Any] = {}
+    totals: dict[str, Any] = {}
     for name, value in row.totals.items():
         if isinstance(value, list):
-            found |= {f"{name}_{axis}": part for axis, part in zip("xyz", value, strict=True)}
+            totals |= {f"{name}_{axis}": part for axis, part in zip("xyz", value, strict=True)}
         else:
-            found[name] = value
-    return found
+            totals[name] = value
+    return totals
 
 
 def _names(rows: Iterable[dict[str, Any]]) -> list[str]:

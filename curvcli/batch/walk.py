@@ -38,13 +38,13 @@ def files_of(pattern: str) -> list[str]:
     the folders times the parts of the pattern. Folders that cannot be listed are left out.
     """
     drive, rest = os.path.splitdrive(pattern)
-    parts = [part for part in re.split(r"[/\\\\]" if os.sep == "\\" else "/", rest) if part]
-    if not parts or rest.endswith(("/", os.sep)):
+    segments = [part for part in re.split(r"[/\\\\]" if os.sep == "\\" else "/", rest) if part]
+    if not segments or rest.endswith(("/", os.sep)):
         return []
     root = drive + os.sep if rest.startswith(("/", os.sep)) else drive
     named: dict[str, tuple[int, str]] = {}
     of_folder: dict[str, str] = {}
-    for path, links in _matches(root, parts):
+    for path, links in _matches(root, segments):
         file, name = real_path(path, of_folder), (links, path)
         named[file] = min(named.get(file, name), name)
     return sorted(path for _, path in named.values())
@@ -60,11 +60,11 @@ def real_path(path: str, of_folder: dict[str, str]) -> str:
     return os.path.join(of_folder[folder], name)
 
 
-def _matches(root: str, parts: list[str]) -> Iterator[tuple[str, int]]:
+def _matches(root: str, segments: list[str]) -> Iterator[tuple[str, int]]:
     """Every file that matches, and the number of links on the way; folders are visited by the fewest."""
     seen: set[tuple[int, int, int]] = set()
     todo = deque([_Visit(root, 0, 0)])
-    tests = [_test([part]) for part in parts[:-1]] + [_test(spellings(parts[-1]))]
+    tests = [_test([part]) for part in segments[:-1]] + [_test(spellings(segments[-1]))]
     while todo:
         visit = todo.popleft()
         folder, part, links = visit
@@ -76,16 +76,16 @@ def _matches(root: str, parts: list[str]) -> Iterator[tuple[str, int]]:
         if state in seen:
             continue
         seen.add(state)
-        last = part == len(parts) - 1
-        if not is_wild(parts[part]):
-            path = os.path.join(folder, parts[part])
+        last = part == len(segments) - 1
+        if not is_wild(segments[part]):
+            path = os.path.join(folder, segments[part])
             if not os.path.isdir(path):
                 if last and os.path.lexists(path):
                     yield path, links + os.path.islink(path)
             elif not last:
                 _later(todo, visit, path, part + 1, os.path.islink(path))
             continue
-        deep = parts[part] == _ALL
+        deep = segments[part] == _ALL
         if deep and not last:
             todo.appendleft(_Visit(folder, part + 1, links))
         for name, is_folder, is_link in _listed(folder or os.curdir):
@@ -100,11 +100,11 @@ def _matches(root: str, parts: list[str]) -> Iterator[tuple[str, int]]:
 
 def _later(todo: deque[_Visit], visit: _Visit, path: str, part: int, is_link: bool) -> None:
     """Queue a folder found in another one: before all that lie behind one link more."""
-    found = _Visit(path, part, visit.links + is_link)
+    visit_later = _Visit(path, part, visit.links + is_link)
     if is_link:
-        todo.append(found)
+        todo.append(visit_later)
     else:
-        todo.appendleft(found)
+        todo.appendleft(visit_later)
 
 
 def spellings(part: str) -> list[str]:
@@ -116,9 +116,9 @@ def spellings(part: str) -> list[str]:
     stem, dot, suffix = part.removesuffix(packed).rpartition(".")
     if not dot or suffix.lower() not in suffixes():
         return [part]
-    plain = f"{stem}.{_any_case(suffix)}"
-    unpacked = [] if packed else [plain]
-    return [*unpacked, f"{plain}{_any_case(_PACKED)}"]
+    packed_off = f"{stem}.{_any_case(suffix)}"
+    unpacked = [] if packed else [packed_off]
+    return [*unpacked, f"{packed_off}{_any_case(_PACKED)}"]
 
 
 def _any_case(letters: str) -> str:
@@ -127,21 +127,21 @@ def _any_case(letters: str) -> str:
 
 def _test(patterns: list[str]) -> Callable[[str], bool]:
     """Function that is true for names that match one of these patterns for a part."""
-    fits = re.compile("|".join(fnmatch.translate(os.path.normcase(one)) for one in patterns)).match
+    fits = re.compile("|".join(fnmatch.translate(os.path.normcase(pattern)) for pattern in patterns)).match
     hidden = patterns[0].startswith(".")
     return lambda name: (hidden or not name.startswith(".")) and fits(os.path.normcase(name)) is not None
 
 
 def _listed(folder: str) -> list[tuple[str, bool, bool]]:
     """Entries of a folder in the order of their names, each with whether it is a folder and whether it is a link."""
-    found = []
+    listing = []
     try:
         with os.scandir(folder) as entries:
             for entry in entries:
                 try:
-                    found.append((entry.name, entry.is_dir(), entry.is_symlink()))
+                    listing.append((entry.name, entry.is_dir(), entry.is_symlink()))
                 except OSError:
-                    found.append((entry.name, False, True))
+                    listing.append((entry.name, False, True))
     except OSError:
         return []
-    return sorted(found)
+    return sorted(listing)

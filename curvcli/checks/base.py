@@ -174,8 +174,8 @@ def exclude_null(outcome: IdentityValues, groups: Groups, surface: Surface, null
     outcome.exclude(count > 0, reason)
 
 
-def _said(words: Words, group: int) -> str:
-    return words if isinstance(words, str) else words(group)
+def _said(text: Words, group: int) -> str:
+    return text if isinstance(text, str) else text(group)
 
 
 def _plain(value: Any) -> Any:

@@ -34,10 +34,10 @@ def first_variation(
     chosen[sample] = True
     corner = np.flatnonzero(chosen[surface.faces].ravel())
     vertex = surface.faces.reshape(-1)[corner]
-    found = _differences(surface, corner, np.searchsorted(sample, vertex), len(sample))
+    differences = _differences(surface, corner, np.searchsorted(sample, vertex), len(sample))
     strain = np.zeros((2, len(sample)))
     gradients = area_gradient[:, sample], A_vec[:, sample]
-    for row, gradient, (difference, bound) in zip(strain, gradients, found, strict=True):
+    for row, gradient, (difference, bound) in zip(strain, gradients, differences, strict=True):
         gap = difference - gradient
         row[:] = np.sqrt(dot(gap, gap)) / bound
     worst = np.full(surface.n_vertices, np.nan)

@@ -132,7 +132,7 @@ class AnalyzeRun:
             format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
             for path in self.paths[0]
         ]
-        check_appearance(self.appearance, at_scale, [one.suffix for one in formats])
+        check_appearance(self.appearance, at_scale, [format.suffix for format in formats])
         self.besides = needs(formats, [kind for kind, _ in kinds], self.appearance, at_scale)
         for kind, path in self.tables[0]:
             format_of(path, name=stream_format if path == "-" else None, kinds=["table"])

@@ -152,10 +152,10 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
     merge_settings(conventions)
     names, at_scale = options.chosen(passes, conventions)
     conventions["stat"] = parse_statistics(conventions["stat"])
-    if any(one.startswith("regions.") for one in save) and conventions["regions"] is None:
+    if any(suffix.startswith("regions.") for suffix in save) and conventions["regions"] is None:
         raise UsageError("--save regions: there are none without --regions")
     appearance = options.appearance(conventions)
-    check_appearance(appearance, at_scale, [f".{one}" for one in save])
+    check_appearance(appearance, at_scale, [f".{suffix}" for suffix in save])
     return BatchSettings(
         passes=tuple(names),
         save=save,
@@ -236,7 +236,7 @@ def _print_summary(batch: Batch, begun: int) -> None:
     show_configuration(console, configured(batch.settings.configuration))
     missing = len(batch.items) - len(batch.rows)
     kept = len(batch.items) - begun
-    parts = [f"{len(batch.rows):,} of {counted(len(batch.items), 'mesh', 'meshes')}"]
-    parts += [f"{kept:,} unchanged since an earlier run"] * bool(kept)
-    parts += [f"{missing:,} left for --resume"] * bool(missing)
-    console.print(f"{', '.join(parts)}; {escape(os.path.join(batch.folder, 'summary.csv'))}", soft_wrap=True)
+    phrases = [f"{len(batch.rows):,} of {counted(len(batch.items), 'mesh', 'meshes')}"]
+    phrases += [f"{kept:,} unchanged since an earlier run"] * bool(kept)
+    phrases += [f"{missing:,} left for --resume"] * bool(missing)
+    console.print(f"{', '.join(phrases)}; {escape(os.path.join(batch.folder, 'summary.csv'))}", soft_wrap=True)

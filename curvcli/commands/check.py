@@ -132,11 +132,11 @@ class CheckRun:
         from ..report.check.model import failed_input, report_of
 
         with Outputs([] if self.output == "-" else [self.output], self.force) as outputs:
-            found = each_mesh(
+            results = each_mesh(
                 self.meshes, lambda number: self.judged(self.meshes[number]), failed_input, alone=LackingError
             )
-            code = worst([mesh.exit_code for mesh in found])
-            report = report_of(self.plan.rules, found, code, configuration())
+            code = worst([mesh.exit_code for mesh in results])
+            report = report_of(self.plan.rules, results, code, configuration())
             if self.output == "-":
                 self.show(report)
             else:

@@ -163,20 +163,20 @@ def compare_map(
     from ..report.maps import build
     from ..report.terminal.maps import show
 
-    wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
-    to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
+    specs = tables_and_reports(outputs, tables, TABLES, stream_format)
+    to_stdout = one_stdout([spec.path for spec in specs], as_json, get, stream_format)
     parse_precision(precision)
     welding = parse_weld(weld)
 
     # Outputs are checked before the first surface is read.
-    with Outputs([one.path for one in wanted], force) as files:
-        found = _read(a, b, welding, quiet, limits)
-        found.configuration = configuration()
-        for one in wanted:
-            with files.open(one.path) as stream:
-                _write(stream, found, one.kind, one.suffix, precision)
-        print_report(partial(build, found), partial(show, found), as_json, get, quiet or to_stdout)
-    return FAILED_CHECK if any(check.status == "fail" for check in found.checks) else OK
+    with Outputs([spec.path for spec in specs], force) as files:
+        surface_map = _read(a, b, welding, quiet, limits)
+        surface_map.configuration = configuration()
+        for spec in specs:
+            with files.open(spec.path) as stream:
+                _write(stream, surface_map, spec.kind, spec.suffix, precision)
+        print_report(partial(build, surface_map), partial(show, surface_map), as_json, get, quiet or to_stdout)
+    return FAILED_CHECK if any(check.status == "fail" for check in surface_map.checks) else OK
 
 
 def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]) -> SurfaceMap:
@@ -190,18 +190,18 @@ def _read(a: str, b: str, weld: str | float, quiet: bool, limits: dict[str, Any]
         with phase(f"reading {path}", quiet):
             surfaces.append(load(input_of(path), weld=weld, texture=texture, **limits))
     with phase("computing", quiet):
-        found = TextureMap(*surfaces) if texture else SurfaceMap(*surfaces)
-        _ = found.checks
-    return found
+        surface_map = TextureMap(*surfaces) if texture else SurfaceMap(*surfaces)
+        _ = surface_map.checks
+    return surface_map
 
 
-def _write(stream: Any, found: SurfaceMap, kind: str, suffix: str, precision: str) -> None:
+def _write(stream: Any, surface_map: SurfaceMap, kind: str, suffix: str, precision: str) -> None:
     from ..output.tables.write import write_table
     from ..report.maps import build
     from ..report.model import encode
 
     if kind == "report":
-        stream.write(encode(build(found)))
+        stream.write(encode(build(surface_map)))
     else:
-        table = found.vertex_table() if kind == "vertices" else found.face_table()
+        table = surface_map.vertex_table() if kind == "vertices" else surface_map.face_table()
         write_table(stream, table, suffix, precision=precision)

@@ -63,27 +63,30 @@ def compare(
     given = given | ({"parameters"} if "spontaneous_curvature" in given else set())
     limits = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
     with Outputs(list(outputs), force) as files:
-        found: Comparison | Accuracy
+        comparison: Comparison | Accuracy
         table: Callable[[], dict[str, Any]]
         summary: Callable[[], None]
         mesh, known = _exact(a, b, limits, exact)
         if known is not None:
             limit = rtol if "rtol" in given else None
-            found = accuracy(mesh, known, conventions, limits, selector(only, ignore), limit, quiet)
-            table, summary = partial(errors.table, found), partial(error_summary.show, found)
+            comparison = accuracy(mesh, known, conventions, limits, selector(only, ignore), limit, quiet)
+            table, summary = partial(errors.table, comparison), partial(error_summary.show, comparison)
         else:
             sides = both_sides(a, b, given, conventions, limits, quiet)
-            found = _compare(sides, Tolerance(rtol, atol), only, ignore, common)
-            table, summary = partial(differences.table, found), partial(difference_summary.show, found, verbose)
-        found.configuration = configured(configuration())
-        for path, one in zip(outputs, formats, strict=True):
+            comparison = _compare(sides, Tolerance(rtol, atol), only, ignore, common)
+            table, summary = (
+                partial(differences.table, comparison),
+                partial(difference_summary.show, comparison, verbose),
+            )
+        comparison.configuration = configured(configuration())
+        for path, output_format in zip(outputs, formats, strict=True):
             with files.open(path) as stream:
-                if one.kind == "report":
-                    stream.write(encode(as_dict(found)))
+                if output_format.kind == "report":
+                    stream.write(encode(as_dict(comparison)))
                 else:
-                    write_table(stream, table(), one.suffix, precision=precision)
-        print_report(partial(as_dict, found), summary, as_json, get, quiet or to_stdout)
-    return OK if found.equal else FAILED_CHECK
+                    write_table(stream, table(), output_format.suffix, precision=precision)
+        print_report(partial(as_dict, comparison), summary, as_json, get, quiet or to_stdout)
+    return OK if comparison.equal else FAILED_CHECK
 
 
 def _compare(
@@ -98,26 +101,26 @@ def _compare(
 
     a, b = sides
     wanted = selector(only, ignore)
-    found: list[Difference] = []
+    differing: list[Difference] = []
     columns: list[MovedColumn] = []
     notes: list[str] = []
     compared = 0
     if a.report is not None and b.report is not None:
-        found, compared = compare_reports(a.report, b.report, tolerance, wanted, common=common)
-        if any(one.key.startswith("conventions.") for one in found):
+        differing, compared = compare_reports(a.report, b.report, tolerance, wanted, common=common)
+        if any(difference.key.startswith("conventions.") for difference in differing):
             notes.append("the conventions differ, so the numbers mean different things")
     if a.cells is not None and b.cells is not None and (only or wanted("vertices")):
         counts = [len(next(iter(side.cells.values()))) for side in (a, b)]  # type: ignore[union-attr]
         if counts[0] == counts[1]:
             columns, lacking, more = compare_cells(a.cells, b.cells, tolerance, wanted, common=common)
-            found, compared = [*found, *lacking], compared + more
+            differing, compared = [*differing, *lacking], compared + more
         elif wanted("vertices.count"):
-            found.append(Difference("vertices.count", "changed", counts[0], counts[1], None, None))
+            differing.append(Difference("vertices.count", "changed", counts[0], counts[1], None, None))
             compared += 1
             notes.append("tables of different lengths: the columns are not compared cell by cell")
-    if not compared and not found:
+    if not compared and not differing:
         raise UsageError("nothing is left to compare; --only or --ignore leaves no value that both sides have")
-    return model(a.side, b.side, tolerance, compared, found, columns, notes)
+    return model(a.side, b.side, tolerance, compared, differing, columns, notes)
 
 
 def _exact(a: str, b: str, limits: dict[str, Any], exact: bool) -> tuple[str, LoadedSide | None]:

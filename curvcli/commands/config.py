@@ -65,10 +65,10 @@ def read(path: str) -> dict[str, Any]:
 
     Errors: UsageError.
     """
-    found = _table(path)
-    if found is None:
+    tables = _table(path)
+    if tables is None:
         raise UsageError(f"{path}: there is no table [tool.curvcli] in it")
-    return found
+    return tables
 
 
 def _table(path: str) -> dict[str, Any] | None:
@@ -126,7 +126,7 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
     if not isinstance(table, dict):
         raise UsageError(f"{path}: {name}: expected a table, headed {heading(path, name)}")
     options = {key: option for option in _options(command) for key in _keys(option)}
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for key, value in table.items():
         place = f"{path}: {heading(path, name)} {key}"
         option = options.get(key.replace("_", "-"))
@@ -134,10 +134,10 @@ def defaults(path: str, name: str, table: Any, find: Find) -> dict[str, Any]:
             way_out = suggestion(key.replace("_", "-"), options, f"`curvcli {name} --help` lists them")
             raise UsageError(f"{place}: there is no such option{way_out}")
         _refuse(option.name, value, place)
-        if option.name in found:
+        if option.name in values:
             raise UsageError(f"{place}: is given twice in two spellings")
-        found[option.name] = _checked(option, value, place)
-    return found
+        values[option.name] = _checked(option, value, place)
+    return values
 
 
 def _refuse(name: str, value: Any, place: str) -> None:
@@ -153,7 +153,11 @@ def _refuse(name: str, value: Any, place: str) -> None:
 
 
 def _options(command: click.Command) -> list[click.Option]:
-    return [one for one in command.params if isinstance(one, click.Option) and one.name not in _NOT_DEFAULTS]
+    return [
+        parameter
+        for parameter in command.params
+        if isinstance(parameter, click.Option) and parameter.name not in _NOT_DEFAULTS
+    ]
 
 
 def _keys(option: click.Option) -> list[str]:

@@ -101,19 +101,19 @@ def measure(
     from ..report.model import as_dict
     from .configured import configuration
 
-    wanted = tables_and_reports(outputs, tables, TABLES, stream_format)
-    to_stdout = one_stdout([one.path for one in wanted], as_json, get, stream_format)
+    specs = tables_and_reports(outputs, tables, TABLES, stream_format)
+    to_stdout = one_stdout([spec.path for spec in specs], as_json, get, stream_format)
     parse_precision(precision)
     welding = parse_weld(weld)
 
     # Outputs are checked before the file is read.
-    with Outputs([one.path for one in wanted], force) as files:
+    with Outputs([spec.path for spec in specs], force) as files:
         measures = _read(file, welding, max_writhe, quiet, limits)
         report = _report(measures, welding, unit)
         report.configuration = configured(configuration())
-        for one in wanted:
-            with files.open(one.path) as stream:
-                _write(stream, measures, report, one.kind, one.suffix, precision)
+        for spec in specs:
+            with files.open(spec.path) as stream:
+                _write(stream, measures, report, spec.kind, spec.suffix, precision)
         summary = partial(_show, report, verbose)
         print_report(partial(as_dict, report), summary, as_json, get, quiet or to_stdout)
     return FAILED_CHECK if strict and any(check.status == "fail" for check in report.checks) else OK
@@ -126,9 +126,9 @@ def _read(file: str, weld: str | float, max_writhe: int, quiet: bool, limits: di
     from .progress import phase
 
     with phase(f"reading {file}", quiet):
-        found = curves_of_file(read_mesh_file(input_of(file), weld=weld, **limits))
+        curves = curves_of_file(read_mesh_file(input_of(file), weld=weld, **limits))
     with phase(f"computing {file}", quiet):
-        measures = CurveMeasures(found, max_writhe=max_writhe)
+        measures = CurveMeasures(curves, max_writhe=max_writhe)
         _ = measures.identities
     return measures
 
@@ -136,7 +136,7 @@ def _read(file: str, weld: str | float, max_writhe: int, quiet: bool, limits: di
 def _report(measures: CurveMeasures, weld: str | float, unit: str | None) -> CurveReport:
     from ..report.curves import model
 
-    file = measures.found.file
+    file = measures.curve_set.file
     return model(measures, weld=file.weld if file is not None else str(weld), unit=unit)
 
 

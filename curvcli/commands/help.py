@@ -55,9 +55,9 @@ def of_command(name: str, topics: dict[str, Topic]) -> None:
     from .names import COMMANDS
 
     context = click.get_current_context().find_root()
-    found = cli.get_command(context, name)
-    if found is None:
+    command = cli.get_command(context, name)
+    if command is None:
         way_out = suggestion(name, [*topics, *COMMANDS], "`curvcli help` lists them")
         raise click.UsageError(f"no topic or command is called {name!r}{way_out}", click.get_current_context())
-    with click.Context(found, info_name=name, parent=context, max_content_width=100) as inner:
-        put(found.get_help(inner) + "\n")
+    with click.Context(command, info_name=name, parent=context, max_content_width=100) as inner:
+        put(command.get_help(inner) + "\n")

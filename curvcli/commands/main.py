@@ -81,11 +81,11 @@ class LazyGroup(click.Group):
         """Import one command."""
         if cmd_name not in COMMANDS:
             return None
-        found: click.Command = import_module(f"curvcli.commands.{cmd_name}").command
+        command: click.Command = import_module(f"curvcli.commands.{cmd_name}").command
         return (
-            import_module("curvcli.commands.completion.candidates").completing(found)
+            import_module("curvcli.commands.completion.candidates").completing(command)
             if ctx.resilient_parsing
-            else found
+            else command
         )
 
     def resolve_command(

@@ -20,13 +20,13 @@ def input_of(path: str) -> str | BinaryIO:
 
 def each_mesh(
     meshes: Sequence[str],
-    one: Callable[[int], _Made],
+    work: Callable[[int], _Made],
     failed: Callable[[str, str, int], _Made],
     alone: type[CurvcliError] = CurvcliError,
 ) -> list[_Made]:
     """The result of every mesh; the error of a mesh is one line on stderr.
 
-    one: the work on a mesh, from its number. failed: the result of a mesh that ends in an error, from its path, the
+    work: the work on a mesh, from its number. failed: the result of a mesh that ends in an error, from its path, the
     message and the exit code. alone: errors that end the command where it has one mesh only.
     Errors: those that end the command, such as an output that cannot be written or too little memory.
     """
@@ -34,7 +34,7 @@ def each_mesh(
     for number, mesh in enumerate(meshes):
         trim_heap()  # the memory of the mesh before
         try:
-            made.append(one(number))
+            made.append(work(number))
         except CurvcliError as error:
             if stops_all(error) or (single and isinstance(error, alone)):
                 raise

@@ -51,14 +51,14 @@ def tables_and_reports(
     def named(path: str, *kinds: OutputKind) -> Format:
         return format_of(path, name=stream_format if path == "-" else None, kinds=kinds)
 
-    found = []
+    specs = []
     for path in outputs:
-        one = named(path, "table", "report")
-        found.append(OutputSpec(path, "vertices" if one.kind == "table" else "report", one.suffix))
+        format = named(path, "table", "report")
+        specs.append(OutputSpec(path, "vertices" if format.kind == "table" else "report", format.suffix))
     for text in tables:
         kind, path = table_option(text, known)
-        found.append(OutputSpec(path, kind, named(path, "table").suffix))
-    return found
+        specs.append(OutputSpec(path, kind, named(path, "table").suffix))
+    return specs
 
 
 def one_stdout(paths: Iterable[str], as_json: bool, get: tuple[str, ...], stream_format: str | None) -> bool:
@@ -94,7 +94,7 @@ def print_report(
     elif get:
         from ..report.lookup import look_up
 
-        found = report()
-        put("".join([f"{look_up(found, key)}\n" for key in get]))
+        tree = report()
+        put("".join([f"{look_up(tree, key)}\n" for key in get]))
     elif not quiet:
         summary()

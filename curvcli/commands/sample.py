@@ -106,9 +106,9 @@ def _write(
     formats = [format_of(path, name=stream_format if path == "-" else None, kinds=kinds) for path in outputs]
     with Outputs(outputs, force) as files:
         made = spec(**values).scaled(scale)
-        for path, one in zip(outputs, formats, strict=True):
+        for path, output_format in zip(outputs, formats, strict=True):
             with files.open(path) as stream:
-                _write_one(stream, made, one.suffix, ascii_stl, quiet)
+                _write_one(stream, made, output_format.suffix, ascii_stl, quiet)
 
 
 def _write_one(stream: Any, made: Sample, suffix: str, ascii_stl: bool, quiet: bool) -> None:

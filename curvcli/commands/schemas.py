@@ -44,10 +44,11 @@ class Described:
         """Content of the schema file."""
         alternatives, definitions = msgspec.json.schema_components(self.types)
         require_all_keys(definitions)
-        for one in definitions.values():
-            if "description" in one:
-                one["description"] = cleandoc(one["description"])  # as Python keeps docstrings from 3.13 on
-            for value in one.get("properties", {}).values():
+        for definition in definitions.values():
+            if "description" in definition:
+                # as Python keeps docstrings from 3.13 on
+                definition["description"] = cleandoc(definition["description"])
+            for value in definition.get("properties", {}).values():
                 if value.get("default") == __version__:
                     del value["default"]  # defaults apply only to the writer
         body = alternatives[0] if len(alternatives) == 1 else {"oneOf": list(alternatives)}
@@ -76,8 +77,8 @@ def path_of(name: str) -> Path:
 def write() -> None:
     """Write all schema files."""
     FOLDER.mkdir(exist_ok=True)
-    for name, one in SCHEMAS.items():
-        path_of(name).write_bytes(one.stored())
+    for name, schema in SCHEMAS.items():
+        path_of(name).write_bytes(schema.stored())
 
 
 def say(name: str) -> None:

@@ -74,8 +74,8 @@ def _made_with(side: LoadedSide) -> dict[str, Any]:
 
     load_passes()
     columns = {column: q.name for q in passes.quantities("vertex") for column in q.columns}
-    found: dict[str, Any] = {} if side.report is None else side.report["conventions"]
-    scales = found.get("scale") or ""
+    conventions: dict[str, Any] = {} if side.report is None else side.report["conventions"]
+    scales = conventions.get("scale") or ""
     columns |= {f"{column}_{scale}": name for column, name in columns.items() for scale in scales.split(",")}
     if side.report is None:
         return {"passes": tuple(dict.fromkeys(columns[name] for name in side.cells or () if name in columns))}
@@ -83,20 +83,20 @@ def _made_with(side: LoadedSide) -> dict[str, Any]:
     totals = {q.total: q.name for q in passes.quantities() if q.total and q.on != "vertex"}
     names = [columns[name] for name in side.report["columns"] if name in columns]
     names += [totals[name] for name in side.report["totals"] if name in totals]
-    made = {key: found[key] for key in ("mean", "area", "orient", "normals") if found.get(key) is not None}
-    made |= {"unit": found.get("unit"), "passes": tuple(dict.fromkeys(names))}
-    if found.get("scale") is not None:
-        made |= options_of(found["scale"])
-    if found.get("noise") is not None:
-        made["noise"] = float(found["noise"])
-    if found.get("settings") is not None:
-        made["parameters"] = parse_described(found["settings"])
-    if found.get("bending_rigidity") is not None:
-        made["bending_rigidity"] = found["bending_rigidity"]
-    if found.get("weld") not in (None, "none"):
-        made["weld"] = parse_weld(found["weld"])
-    if found.get("regions") not in (None, "array"):
-        made["regions"] = found["regions"]
+    made = {key: conventions[key] for key in ("mean", "area", "orient", "normals") if conventions.get(key) is not None}
+    made |= {"unit": conventions.get("unit"), "passes": tuple(dict.fromkeys(names))}
+    if conventions.get("scale") is not None:
+        made |= options_of(conventions["scale"])
+    if conventions.get("noise") is not None:
+        made["noise"] = float(conventions["noise"])
+    if conventions.get("settings") is not None:
+        made["parameters"] = parse_described(conventions["settings"])
+    if conventions.get("bending_rigidity") is not None:
+        made["bending_rigidity"] = conventions["bending_rigidity"]
+    if conventions.get("weld") not in (None, "none"):
+        made["weld"] = parse_weld(conventions["weld"])
+    if conventions.get("regions") not in (None, "array"):
+        made["regions"] = conventions["regions"]
     return made
 
 

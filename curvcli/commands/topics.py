@@ -42,8 +42,10 @@ def _formats() -> str:
     from ..loading.registry import input_formats
     from ..output.registry import output_formats
 
-    inputs = [(f".{end}", f"{one.title}, also .{end}.gz") for one in input_formats().values() for end in one.endings]
-    outputs = [(suffix, one.description) for suffix, one in output_formats().items()]
+    inputs = [
+        (f".{end}", f"{format.title}, also .{end}.gz") for format in input_formats().values() for end in format.endings
+    ]
+    outputs = [(suffix, format.description) for suffix, format in output_formats().items()]
     return (
         _table("Formats that are read", inputs)
         + "\n`-` reads a stream; --input-format names its format.\n\n"
@@ -88,7 +90,7 @@ def _estimates() -> str:
 def _schemas() -> str:
     from .schemas import SCHEMAS
 
-    rows = [(name, one.command) for name, one in SCHEMAS.items()]
+    rows = [(name, schema.command) for name, schema in SCHEMAS.items()]
     note = "\nThe files are in curvcli/commands/data/schemas; --schema prints them with the names of all columns.\n"
     return _table("JSON Schemas", rows) + note
 

@@ -42,17 +42,17 @@ def _parts(surface: Surface, face: Index) -> Floats:
     cosines = np.array(t.cosines)
     squares = np.array([dot(side, side) for side in (t.v, t.w, t.u)])
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        parts = _voronoi_parts(squares * (cosines / t.twice_area))
+        shares = _voronoi_parts(squares * (cosines / t.twice_area))
         thin = np.flatnonzero(~(np.abs(cosines).max(axis=0) <= THIN_COTANGENT * t.twice_area))
         if len(thin):
-            parts[:, thin], cosines[:, thin] = _thin_parts(surface, face[thin])
-    return _with_obtuse(parts, cosines, t)
+            shares[:, thin], cosines[:, thin] = _thin_parts(surface, face[thin])
+    return _with_obtuse(shares, cosines, t)
 
 
 def _voronoi_parts(shares: Floats) -> Floats:
     """⅛ of the shares |e|² cot of the two edges at each corner, given the share of the edge opposite it."""
-    parts: Floats = (shares[[1, 2, 0]] + shares[[2, 0, 1]]) / 8
-    return parts
+    areas: Floats = (shares[[1, 2, 0]] + shares[[2, 0, 1]]) / 8
+    return areas
 
 
 def _thin_parts(surface: Surface, face: Index) -> tuple[Floats, Floats]:
@@ -62,10 +62,10 @@ def _thin_parts(surface: Surface, face: Index) -> tuple[Floats, Floats]:
     return _voronoi_parts(shares), np.array([x.high for x in c])
 
 
-def _with_obtuse(parts: Floats, cosines: Floats, t: Triangles) -> Floats:
+def _with_obtuse(shares: Floats, cosines: Floats, t: Triangles) -> Floats:
     """Apply the rule for obtuse faces; 0 on faces without area."""
     at_obtuse = cosines < 0
     obtuse = np.flatnonzero(at_obtuse.any(axis=0) | (t.twice_area == 0))
     if len(obtuse):
-        parts[:, obtuse] = t.twice_area[obtuse] * np.where(at_obtuse[:, obtuse], 0.25, 0.125)
-    return parts
+        shares[:, obtuse] = t.twice_area[obtuse] * np.where(at_obtuse[:, obtuse], 0.25, 0.125)
+    return shares

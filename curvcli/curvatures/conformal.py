@@ -30,7 +30,7 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
 
     def meet(block: slice) -> None:
         edges = surface.edges.inner_edges(block)
-        left, right = (corners.take(previous_corner(half_edges)) for half_edges in (edges.one, edges.other))
+        left, right = (corners.take(previous_corner(half_edges)) for half_edges in (edges.half_edge, edges.twin))
         a, b, c, d = (surface.xyz.take(vertex, axis=1) for vertex in (edges.a, edges.b, left, right))
         # Up to a positive factor q is the product of four imaginary quaternions, xy = −x·y + x × y.
         u, v, w, z = a - c, c - b, b - d, d - a
@@ -38,9 +38,9 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
         p, q = cross(u, v), cross(w, z)
         pq = cross(p, q)
         imaginary = [s * y + t * x + xy for x, y, xy in zip(p, q, pq, strict=True)]
-        found = np.arctan2(np.sqrt(dot(imaginary, imaginary)), dot(p, q) - s * t)
-        lost = degenerate_face.take(edges.one // 3) | degenerate_face.take(edges.other // 3)
-        angle[edges.where] = np.where(lost, np.nan, found)
+        angles = np.arctan2(np.sqrt(dot(imaginary, imaginary)), dot(p, q) - s * t)
+        lost = degenerate_face.take(edges.half_edge // 3) | degenerate_face.take(edges.twin // 3)
+        angle[edges.where] = np.where(lost, np.nan, angles)
 
     for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), meet)
     return angle

@@ -237,11 +237,11 @@ def _measures(surface: Surface, normal: VectorColumn) -> Floats:
         e_1, e_2 = ([b - a for a, b in zip(n[0], n[k], strict=True)] for k in (1, 2))
         mean = [(a + b + c) / 3 for a, b, c in zip(*n, strict=True)]
         upright = cross(d_1, d_2)
-        one, other = cross(d_2, mean), cross(mean, d_1)
+        across, along = cross(d_2, mean), cross(mean, d_1)
         rows = [dot(mean, upright), np.sqrt(dot(upright, upright)), dot(n[0], cross(n[1], n[2]))]
         for i, j in ENTRIES:
-            entry = e_1[i] * one[j] + e_2[i] * other[j]
-            rows.append(entry if i == j else 0.5 * (entry + e_1[j] * one[i] + e_2[j] * other[i]))
+            entry = e_1[i] * across[j] + e_2[i] * along[j]
+            rows.append(entry if i == j else 0.5 * (entry + e_1[j] * across[i] + e_2[j] * along[i]))
         unknown = np.isnan(rows[_MU_0])
         if unknown.any():
             rows = [np.where(unknown, 0.0, row) for row in rows]

@@ -63,20 +63,20 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
 
     def turn_of(block: slice) -> None:
         edges = surface.edges.inner_edges(block)
-        one, other, forward, against = _sides(surface, edges)
-        nu, mu = ([x.take(face) for x in unit_normal] for face in (one, other))
+        face, neighbour, forward, against = _sides(surface, edges)
+        nu, mu = ([x.take(side) for x in unit_normal] for side in (face, neighbour))
         along = span(surface.xyz, edges.a, edges.b)
         # agree: −1 where the file winds the two faces against each other, so that mu has the opposite sign. A face is
         # on the left of the edge ab if its half-edge runs from a to b.
         agree = np.where(forward != against, 1.0, -1.0)
         side = np.where(forward, agree, -agree)
         if face_sign is not None:
-            side *= face_sign[one]
+            side *= face_sign[face]
         turn = side * dot(cross(nu, mu), along) / np.sqrt(dot(along, along))
         together = agree * dot(nu, mu)
         # Two faces folded onto each other turn by π; the sign of a sine within rounding is meaningless.
-        found = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
-        angle[edges.where] = found if without is None else np.where(without[one], np.abs(found), found)
+        turned = np.arctan2(np.where((together < 0) & (np.abs(turn) <= FOLD), np.abs(turn), turn), together)
+        angle[edges.where] = turned if without is None else np.where(without[face], np.abs(turned), turned)
 
     for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), turn_of)
     return angle
@@ -92,8 +92,8 @@ def folded(theta: Column) -> Flags:
 def _sides(surface: Surface, edges: InnerEdges) -> tuple[NDArray[np.intp], NDArray[np.intp], Mask, Mask]:
     """The two faces at each edge, and flags of half-edges from a to b in the file."""
     tail = surface.faces.reshape(-1)
-    forward, against = (tail.take(half_edges) == edges.a for half_edges in (edges.one, edges.other))
-    return edges.one // 3, edges.other // 3, forward, against
+    forward, against = (tail.take(half_edges) == edges.a for half_edges in (edges.half_edge, edges.twin))
+    return edges.half_edge // 3, edges.twin // 3, forward, against
 
 
 @curvature_pass(
@@ -114,9 +114,9 @@ def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
 
     def bend(block: slice) -> None:
         edges = surface.edges.inner_edges(block)
-        one, other, forward, against = _sides(surface, edges)
+        face, neighbour, forward, against = _sides(surface, edges)
         way, back = np.where(forward, 1.0, -1.0), np.where(against, 1.0, -1.0)
-        between = [way * nu.take(one) + back * nu.take(other) for nu in unit_normal]
+        between = [way * nu.take(face) + back * nu.take(neighbour) for nu in unit_normal]
         vector[:, edges.where] = cross(between, span(surface.xyz, edges.a, edges.b))
 
     for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), bend)
@@ -205,7 +205,7 @@ def kappa_across(surface: Surface, theta: Column, edge_length: Column, face_area
 
     def divide(block: slice) -> None:
         edges = surface.edges.inner_edges(block)
-        area = face_area.take(edges.one // 3) + face_area.take(edges.other // 3)
+        area = face_area.take(edges.half_edge // 3) + face_area.take(edges.twin // 3)
         chord = 2 * np.sin(theta[edges.where] / 2) * edge_length[edges.where]
         with np.errstate(divide="ignore", invalid="ignore"):
             curvature[edges.where] = chord / area

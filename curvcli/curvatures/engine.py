@@ -23,34 +23,34 @@ from .quantity import AT_SCALE, CELL_AREA, CELL_AREAS, MASKS, NO_QUANTITIES, SUR
 _VERTICES = 1 << 16
 
 
-def needs(one: Step, area: str) -> list[str]:
+def needs(step: Step, area: str) -> list[str]:
     """The quantities that a pass needs, with the name of the chosen cell area for `cell_area`."""
-    return [CELL_AREAS[area] if need == CELL_AREA else need for need in one.needs if need not in NO_QUANTITIES]
+    return [CELL_AREAS[area] if need == CELL_AREA else need for need in step.needs if need not in NO_QUANTITIES]
 
 
 def arguments(
-    one: Step,
+    step: Step,
     surface: Surface,
     have: Mapping[str, Array],
     area: str = "barycentric",
     settings: EstimatorSettings = DEFAULTS,
 ) -> list[Any]:
     """The arguments of a pass."""
-    columns = iter(needs(one, area))
+    columns = iter(needs(step, area))
 
     def answer(need: str) -> Any:
         if need not in NO_QUANTITIES:
             return have[next(columns)]
         return surface if need == SURFACE else getattr(surface if need in MASKS else settings, need)
 
-    return [answer(need) for need in one.needs]
+    return [answer(need) for need in step.needs]
 
 
-def values_of(one: Step, surface: Surface, settings: EstimatorSettings = DEFAULTS) -> dict[str, Any]:
+def values_of(step: Step, surface: Surface, settings: EstimatorSettings = DEFAULTS) -> dict[str, Any]:
     """The values of a pass's own parameters by name, in the unit of computation."""
-    values = {each.name: settings.values.get(f"{one.name}.{each.name}", each.default) for each in one.settings}
+    values = {each.name: settings.values.get(f"{step.name}.{each.name}", each.default) for each in step.settings}
     if surface.unit_exponent:
-        for each in one.settings:
+        for each in step.settings:
             if each.length_exponent:
                 with np.errstate(over="ignore", under="ignore"):
                     scaled = np.ldexp(values[each.name], -each.length_exponent * surface.unit_exponent)
@@ -61,22 +61,22 @@ def values_of(one: Step, surface: Surface, settings: EstimatorSettings = DEFAULT
 def schedule(passes: Provider, names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Step]:
     """Order the passes for the named quantities so that each comes after its needs."""
     graph: dict[str, set[str]] = {}
-    found: dict[str, Step] = {}
+    steps: dict[str, Step] = {}
     todo = list(names)
     while todo:
-        one = passes.provider(todo.pop())
-        if one.name not in graph:
-            found[one.name] = one
-            missing = [need for need in needs(one, area) if need not in have]
-            graph[one.name] = {passes.provider(need).name for need in missing}
+        step = passes.provider(todo.pop())
+        if step.name not in graph:
+            steps[step.name] = step
+            missing = [need for need in needs(step, area) if need not in have]
+            graph[step.name] = {passes.provider(need).name for need in missing}
             todo += missing
     sorter = TopologicalSorter(graph)
     sorter.prepare()
     order: list[Step] = []
     ready: list[Step] = []
     while sorter.is_active():
-        ready += map(found.__getitem__, sorter.get_ready())
-        ready.sort(key=lambda one: one.pointwise)  # last, to run them together
+        ready += map(steps.__getitem__, sorter.get_ready())
+        ready.sort(key=lambda step: step.pointwise)  # last, to run them together
         order.append(ready.pop(0))
         sorter.done(order[-1].name)
     return order
@@ -85,7 +85,7 @@ def schedule(passes: Provider, names: Iterable[str], area: str, have: Set[str] =
 def prepare(passes: Provider, surface: Surface, names: Iterable[str], area: str = "barycentric") -> None:
     """Compute the topology, and release the edges unless a named quantity needs them."""
     order = schedule(passes, (name.partition(AT_SCALE)[0] for name in names), area)
-    if any(quantity.on == "edge" for one in order for quantity in one.provides):
+    if any(quantity.on == "edge" for step in order for quantity in step.provides):
         surface.compute_topology()
     else:
         surface.release_edges()
@@ -113,15 +113,15 @@ def evaluate(
     if around and not surface.is_manifold:
         have |= on_single_fans(surface, evaluate(passes, sheets(surface), around, area=area, settings=settings))
         wanted -= around
-    plain = {name for name in wanted if AT_SCALE not in name}
-    have |= _evaluate(passes, surface, plain | _shared(passes, wanted - plain, area), area, settings, have)
+    unscaled = {name for name in wanted if AT_SCALE not in name}
+    have |= _evaluate(passes, surface, unscaled | _shared(passes, wanted - unscaled, area), area, settings, have)
     for scale in settings.scales:
         suffix = AT_SCALE + scale.name
         here = {name.removesuffix(suffix) for name in wanted if name.endswith(suffix)}
         if here:
             same = {k: column for k, column in have.items() if AT_SCALE not in k and not passes.depends_on_scale(k)}
-            found = _evaluate(passes, surface, here, area, replace(settings, scales=(scale,)), same)
-            have |= {name + suffix: found[name] for name in here}
+            scaled = _evaluate(passes, surface, here, area, replace(settings, scales=(scale,)), same)
+            have |= {name + suffix: scaled[name] for name in here}
     clear_cache(surface)
     return {name: have[name] for name in asked}
 
@@ -129,8 +129,8 @@ def evaluate(
 def _shared(passes: Provider, names: Iterable[str], area: str) -> set[str]:
     """The quantities that several scales share on the way to the named ones."""
     order = schedule(passes, (name.partition(AT_SCALE)[0] for name in names), area)
-    scaled = [one for one in order if passes.depends_on_scale(one.provides[0].name)]
-    return {need for one in scaled for need in needs(one, area) if not passes.depends_on_scale(need)}
+    scaled = [step for step in order if passes.depends_on_scale(step.provides[0].name)]
+    return {need for step in scaled for need in needs(step, area) if not passes.depends_on_scale(need)}
 
 
 def _evaluate(
@@ -144,23 +144,23 @@ def _evaluate(
     """The known columns, the named ones and those on the way to them, at one scale."""
     have: dict[str, Array] = dict(known)
     order = schedule(passes, [name for name in names if name not in have], area, set(have))
-    for _, group in groupby(order, key=lambda one: one.pointwise or one.name):
+    for _, group in groupby(order, key=lambda step: step.pointwise or step.name):
         run = list(group)
         if run[0].pointwise:
-            found = _at_vertices(run, surface, have, area, settings)
+            columns = _at_vertices(run, surface, have, area, settings)
         else:
             given = arguments(run[0], surface, have, area, settings)
-            found = _named(run[0], given, values_of(run[0], surface, settings))
-        for array in found.values():
+            columns = _named(run[0], given, values_of(run[0], surface, settings))
+        for array in columns.values():
             array.setflags(write=False)
-        have |= found
+        have |= columns
     return have
 
 
-def _named(one: Step, given: Iterable[Any], values: Mapping[str, Any]) -> dict[str, Array]:
+def _named(step: Step, given: Iterable[Any], values: Mapping[str, Any]) -> dict[str, Array]:
     """The results of a pass, by name."""
-    result = one.compute(*given, **values)
-    names = [quantity.name for quantity in one.provides]
+    result = step.compute(*given, **values)
+    names = [quantity.name for quantity in step.provides]
     return dict(zip(names, result if len(names) > 1 else (result,), strict=True))
 
 
@@ -174,21 +174,21 @@ def _at_vertices(
     n = surface.n_vertices
     columns = {
         quantity.name: np.empty((3, n) if quantity.vector else n, bool if quantity.kind == "flag" else np.float64)
-        for one in run
-        for quantity in one.provides
+        for step in run
+        for quantity in step.provides
     }
-    given = {name: have[name] for one in run for name in needs(one, area) if name not in columns}
-    masks = {name: getattr(surface, name) for one in run for name in one.needs if name in MASKS}
-    values = {one.name: values_of(one, surface, settings) for one in run}
+    given = {name: have[name] for step in run for name in needs(step, area) if name not in columns}
+    masks = {name: getattr(surface, name) for step in run for name in step.needs if name in MASKS}
+    values = {step.name: values_of(step, surface, settings) for step in run}
 
     def fill(block: slice) -> None:
         here = {name: column[..., block] for name, column in given.items()}
         some: Any = SimpleNamespace(**{name: mask[block] for name, mask in masks.items()})
-        for one in run:
-            found = _named(one, arguments(one, some, here, area), values[one.name])
-            for name, part in found.items():
+        for step in run:
+            results = _named(step, arguments(step, some, here, area), values[step.name])
+            for name, part in results.items():
                 columns[name][..., block] = part
-            here |= found
+            here |= results
 
     for_each(slices(n, _VERTICES), fill)
     return columns

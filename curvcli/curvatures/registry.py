@@ -60,8 +60,8 @@ class Pass:
         surface = as_surface(surface)
         settings = EstimatorSettings(values={f"{self.name}.{k}": self._value(k, v, surface) for k, v in values.items()})
         names = [quantity.name for quantity in self.provides]
-        found = evaluate(self.registry or passes, surface, names, settings=settings)
-        shown = {q.name: in_file_unit(q, found[q.name], surface) for q in self.provides}
+        columns = evaluate(self.registry or passes, surface, names, settings=settings)
+        shown = {q.name: in_file_unit(q, columns[q.name], surface) for q in self.provides}
         return shown[self.provides[0].name] if len(shown) == 1 else shown
 
     def _value(self, key: str, value: Any, surface: Any) -> Any:
@@ -146,12 +146,12 @@ class Registry(Mapping[str, Pass]):
 
     def quantity(self, name: str) -> Quantity:
         """The declaration of a quantity, also of one at a scale."""
-        plain, _, scale = name.partition(AT_SCALE)
-        found = next(quantity for quantity in self._providers[plain].provides if quantity.name == plain)
+        base, _, scale = name.partition(AT_SCALE)
+        quantity = next(provided for provided in self._providers[base].provides if provided.name == base)
         if not scale:
-            return found
-        total = f"{found.total}_{scale}" if found.total else None
-        return replace(found, name=name, column=f"{found.stem}_{scale}", total=total)
+            return quantity
+        total = f"{quantity.total}_{scale}" if quantity.total else None
+        return replace(quantity, name=name, column=f"{quantity.stem}_{scale}", total=total)
 
     def depends_on_scale(self, name: str) -> bool:
         """Test whether a quantity, or one that it needs, uses neighbourhoods."""
@@ -160,8 +160,8 @@ class Registry(Mapping[str, Pass]):
 
     def looks_around(self, name: str) -> bool:
         """Test for a quantity of vertices, perhaps at a scale, that depends on neighbourhoods."""
-        plain = name.partition(AT_SCALE)[0]
-        return self.depends_on_scale(plain) and self.quantity(plain).on == "vertex"
+        base = name.partition(AT_SCALE)[0]
+        return self.depends_on_scale(base) and self.quantity(base).on == "vertex"
 
     def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
         """Quantities in the order of the tables, vertices first; others follow in the order of declaration."""

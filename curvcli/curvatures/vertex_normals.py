@@ -157,8 +157,8 @@ class _Fit:
 
         moments = self._weighted(10, squares)
 
-        def begin(found: tuple[slice, Pattern]) -> None:
-            block, rows = found
+        def begin(piece: tuple[slice, Pattern]) -> None:
+            block, rows = piece
             total, p = (as_weights(rows) @ moments).T, self._at[:, block]
             square = self._square[:, block]
             for row, (i, j) in zip(square, ENTRIES, strict=True):
@@ -183,8 +183,8 @@ class _Fit:
 
         moments = self._weighted(16, products)
 
-        def add(found: tuple[slice, Pattern]) -> None:
-            block, rows = found
+        def add(piece: tuple[slice, Pattern]) -> None:
+            block, rows = piece
             total, p = (as_weights(rows) @ moments).T, self._at[:, block]
             height = dot(p, total[4:7]) - total[3]
             square, own = self._square[:, block], change[:, block]

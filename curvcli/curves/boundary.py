@@ -77,14 +77,14 @@ class Fans:
         if not self.irregular.any():
             return
         faces = surface.faces
-        one, other = surface.edges.pairs
-        near = np.logical_or(*(self.irregular[end] for end in ends_of(faces, one)))
-        corner, neighbour = neighbouring_corners(faces, one[near], other[near])
+        half_edge, twin = surface.edges.pairs
+        near = np.logical_or(*(self.irregular[end] for end in ends_of(faces, half_edge)))
+        corner, neighbour = neighbouring_corners(faces, half_edge[near], twin[near])
         self._corners = np.flatnonzero(self.irregular[faces.ravel()])
         inside = self.irregular[faces.ravel()[corner]]
         pairs = (np.searchsorted(self._corners, each[inside]) for each in (corner, neighbour))
-        found, self._label = label_graph(len(self._corners), *pairs)
-        self.count += found
+        extra, self._label = label_graph(len(self._corners), *pairs)
+        self.count += extra
 
     def of_corners(self, corner: Rows) -> Rows:
         """The fan of each corner (3 f + k)."""

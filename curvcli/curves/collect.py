@@ -106,15 +106,17 @@ def _of_ends(file: MeshFile, joined: Joined) -> Iterator[Notice]:
     )
 
 
-def curve_notices(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None) -> list[Notice]:
+def curve_notices(
+    curve_set: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None
+) -> list[Notice]:
     """Notices of curves. repeated: vertices equal to the next. reversed_: vertices at which a curve turns back."""
-    return [notice for notice in _all(found, repeated, reversed_, refused, limit) if notice.count]
+    return [notice for notice in _all(curve_set, repeated, reversed_, refused, limit) if notice.count]
 
 
-def _all(found: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None) -> Iterator[Notice]:
-    yield from found.notices
-    if found.boundary is not None:
-        ends = np.flatnonzero(~found.boundary.closed)
+def _all(curve_set: CurveSet, repeated: Rows, reversed_: Rows, refused: int, limit: int | None) -> Iterator[Notice]:
+    yield from curve_set.notices
+    if curve_set.boundary is not None:
+        ends = np.flatnonzero(~curve_set.boundary.closed)
         yield Notice.at(
             "open_boundary",
             ends,

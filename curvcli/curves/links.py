@@ -86,18 +86,18 @@ def _candidates(curves: Curves, closed: Rows) -> tuple[Rows, Rows, Mask] | None:
     low = np.stack([-curves.max(-x)[closed] for x in curves.xyz])
     high = np.stack([curves.max(x)[closed] for x in curves.xyz])
     if len(closed) <= LISTED:
-        one, other = np.triu_indices(len(closed), 1)
+        first, second = np.triu_indices(len(closed), 1)
     else:
         order = np.argsort(low[0], kind="stable")
         after = np.searchsorted(low[0][order], high[0][order], side="right")
         counts = after - np.arange(1, len(order) + 1)
         if counts.sum() > 64 * MOST_PAIRS:
             return None
-        found = [_meeting(low, high, order, counts, block) for block in _blocks(counts)]
-        one, other = np.concatenate(found, axis=1)
-        rank = np.lexsort([other, one])
-        one, other = one[rank], other[rank]
-    return None if len(one) > MOST_PAIRS else (closed[one], closed[other], _meet(low, high, one, other))
+        blocks = [_meeting(low, high, order, counts, block) for block in _blocks(counts)]
+        first, second = np.concatenate(blocks, axis=1)
+        rank = np.lexsort([second, first])
+        first, second = first[rank], second[rank]
+    return None if len(first) > MOST_PAIRS else (closed[first], closed[second], _meet(low, high, first, second))
 
 
 def _blocks(counts: Rows) -> Iterator[slice]:
@@ -110,15 +110,15 @@ def _blocks(counts: Rows) -> Iterator[slice]:
 def _meeting(low: Floats, high: Floats, order: Rows, counts: Rows, block: slice) -> Rows:
     """(2, k) pairs whose boxes meet, of some curves in order with the `counts` that follow each."""
     some = counts[block]
-    one = np.repeat(np.arange(block.start, block.stop), some)
-    other = one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(some) - some, some)
-    pairs = np.sort([order[one], order[other]], axis=0)
+    first = np.repeat(np.arange(block.start, block.stop), some)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(some) - some, some)
+    pairs = np.sort([order[first], order[second]], axis=0)
     return np.asarray(pairs[:, _meet(low, high, *pairs)])
 
 
-def _meet(low: Floats, high: Floats, one: Rows, other: Rows) -> Mask:
+def _meet(low: Floats, high: Floats, first: Rows, second: Rows) -> Mask:
     """(k,) flags: the boxes of two curves have a common point."""
-    meet: Mask = np.logical_and.reduce((low[:, one] <= high[:, other]) & (low[:, other] <= high[:, one]))
+    meet: Mask = np.logical_and.reduce((low[:, first] <= high[:, second]) & (low[:, second] <= high[:, first]))
     return meet
 
 
@@ -144,12 +144,12 @@ def _corners(curves: Curves, curve: int) -> Floats:
     return np.concatenate([xyz, xyz[:, :1]], axis=1)[:, None]
 
 
-def _sum(one: Floats, other: Floats) -> tuple[float, float]:
+def _sum(first: Floats, second: Floats) -> tuple[float, float]:
     """The linking number of two curves by their corners, and a bound of its error, in turns."""
-    one, other = _in_common(one, other)
-    k, m = one.shape[2] - 1, other.shape[2] - 1
+    first, second = _in_common(first, second)
+    k, m = first.shape[2] - 1, second.shape[2] - 1
     sums = [
-        edge_pairs(one[..., i : i + _ROWS + 1], other[..., j : j + _COLUMNS + 1]).summed(None)
+        edge_pairs(first[..., i : i + _ROWS + 1], second[..., j : j + _COLUMNS + 1]).summed(None)
         for i in range(0, k, _ROWS)
         for j in range(0, m, _COLUMNS)
     ]
@@ -158,11 +158,11 @@ def _sum(one: Floats, other: Floats) -> tuple[float, float]:
     return total / (4 * np.pi), (16 + np.log2(k * m)) * EPSILON * bound / (4 * np.pi) + crossings / 2
 
 
-def _in_common(one: Floats, other: Floats) -> tuple[Floats, Floats]:
+def _in_common(first: Floats, second: Floats) -> tuple[Floats, Floats]:
     """Translate and scale both, by a power of 2, so that no square overflows or underflows."""
-    unit = 4 if max(np.abs(one).max(), np.abs(other).max()) >= 2.0**1020 else 0
-    one, other = np.ldexp(one, -unit), np.ldexp(other, -unit)
-    base = one[:, :, :1]
-    one, other = one - base, other - base
-    power = np.frexp(max(np.abs(one).max(), np.abs(other).max()))[1]
-    return np.ldexp(one, -power), np.ldexp(other, -power)
+    unit = 4 if max(np.abs(first).max(), np.abs(second).max()) >= 2.0**1020 else 0
+    first, second = np.ldexp(first, -unit), np.ldexp(second, -unit)
+    base = first[:, :, :1]
+    first, second = first - base, second - base
+    power = np.frexp(max(np.abs(first).max(), np.abs(second).max()))[1]
+    return np.ldexp(first, -power), np.ldexp(second, -power)

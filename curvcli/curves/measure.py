@@ -27,12 +27,12 @@ from .writhe import MAX_EDGES, UNSURE, within, writhe
 class CurveMeasures:
     """Totals and columns of all curves of a set, in the file's unit of length; NaN is undefined."""
 
-    def __init__(self, found: CurveSet, *, max_writhe: int | None = MAX_EDGES) -> None:
-        self.found, self.max_writhe = found, max_writhe
-        self.distinct, self.kept = found.curves.distinct()
+    def __init__(self, curve_set: CurveSet, *, max_writhe: int | None = MAX_EDGES) -> None:
+        self.curve_set, self.max_writhe = curve_set, max_writhe
+        self.distinct, self.kept = curve_set.curves.distinct()
         self.turning = Turning(self.distinct)
         self.frenet, self.bishop = Frenet(self.turning), Bishop(self.turning)
-        self.darboux = None if found.boundary is None else Darboux(found.boundary)
+        self.darboux = None if curve_set.boundary is None else Darboux(curve_set.boundary)
 
     @cached_property
     def writhe(self) -> tuple[Floats, Floats]:
@@ -68,7 +68,7 @@ class CurveMeasures:
     @property
     def notices(self) -> list[Notice]:
         """Notices about accepted input."""
-        vertex = self.found.vertex
+        vertex = self.curve_set.vertex
         repeated = np.delete(vertex, self.kept)
         back = vertex[self.kept[self.turning.reversed]]
         refused = int(np.count_nonzero(~within(self.distinct.edges, self.max_writhe)))
@@ -78,21 +78,21 @@ class CurveMeasures:
             "[curve comes|curves come] so near to crossing [itself|themselves] that rounding decides the writhe",
             "`writhe_error` bounds the error in turns; the writhe jumps by two where a curve passes through itself",
         )
-        told = curve_notices(self.found, repeated, back, refused, self.max_writhe)
-        return [*told, *(notice for notice in (unsure, *self._of_links()) if notice.count)]
+        of_curves = curve_notices(self.curve_set, repeated, back, refused, self.max_writhe)
+        return [*of_curves, *(notice for notice in (unsure, *self._of_links()) if notice.count)]
 
     def _of_links(self) -> Iterator[Notice]:
-        found = self.links
-        touching = np.flatnonzero(found.touching | (found.error > UNSURE))
+        links = self.links
+        touching = np.flatnonzero(links.touching | (links.error > UNSURE))
         yield Notice(
             "linking_undefined",
             len(touching),
             pluralize(len(touching), "[pair|pairs] of closed curves that touch, or so nearly that rounding decides"),
             "a linking number jumps where one curve passes through the other",
-            tuple(f"{found.a[k]}-{found.b[k]}" for k in touching[:5].tolist()),
+            tuple(f"{links.a[k]}-{links.b[k]}" for k in touching[:5].tolist()),
         )
-        refused = pluralize(found.refused, "[pair|pairs] of closed curves too large for [its|their] linking number")
-        yield Notice("linking_refused", found.refused, refused, "--max-writhe sets the limit of these double sums too")
+        refused = pluralize(links.refused, "[pair|pairs] of closed curves too large for [its|their] linking number")
+        yield Notice("linking_refused", links.refused, refused, "--max-writhe sets the limit of these double sums too")
 
     def _boundary_first(self, values: Floats | None, like: int) -> Floats:
         """Values of the boundary curves (or their vertices), then NaN for the polylines."""
@@ -107,16 +107,16 @@ class CurveMeasures:
     @cached_property
     def totals(self) -> dict[str, Any]:
         """One row per curve; see `curvcli curves --help` for the order and the report for the keys."""
-        found, curves, turning = self.found, self.found.curves, self.turning
-        distinct, count = self.distinct, len(self.found.curves)
+        curve_set, curves, turning = self.curve_set, self.curve_set.curves, self.turning
+        distinct, count = self.distinct, len(self.curve_set.curves)
         back = distinct.sum(turning.reversed)
         torsion = self.frenet.torsion
         middle = distinct.inner & distinct.inner[distinct.following]
-        boundary, darboux = found.boundary, self.darboux
+        boundary, darboux = curve_set.boundary, self.darboux
         turned, turned_error = self._twist()
         table: dict[str, Any] = {
             "curve": np.arange(count, dtype=np.int32),
-            "kind": Labels((np.arange(count) >= found.boundaries).astype(np.int32), ("boundary", "polyline")),
+            "kind": Labels((np.arange(count) >= curve_set.boundaries).astype(np.int32), ("boundary", "polyline")),
             "component": self._component(),
             "closed": curves.closed,
             "vertices": curves.sizes.astype(np.int32),
@@ -153,27 +153,27 @@ class CurveMeasures:
         return np.full((3, like), np.nan) if values is None else self._boundary_first(values, like)
 
     def _component(self) -> Any:
-        count, mine = len(self.found.curves), self.found.boundaries
+        count, mine = len(self.curve_set.curves), self.curve_set.boundaries
         component = np.zeros(count, np.int32)
-        if self.found.boundary is not None:
-            component[:mine] = self.found.boundary.component
+        if self.curve_set.boundary is not None:
+            component[:mine] = self.curve_set.boundary.component
         return np.ma.masked_array(component, np.arange(count) >= mine)
 
     def _darboux_sum(self, column: str) -> Floats | None:
-        if self.darboux is None or self.found.boundary is None:
+        if self.darboux is None or self.curve_set.boundary is None:
             return None
-        return complete_sum(self.found.boundary.curves, getattr(self.darboux, column))
+        return complete_sum(self.curve_set.boundary.curves, getattr(self.darboux, column))
 
     def _twist(self) -> tuple[Floats, Floats]:
         """(m,) twist of the surface along its boundary curves, and the bound of its error."""
-        normal = self._vectors(None if self.darboux is None else self.darboux.nu, self.found.curves.size)
+        normal = self._vectors(None if self.darboux is None else self.darboux.nu, self.curve_set.curves.size)
         return twist(self.turning, normal[:, self.kept]), twist_error(self.turning, normal[:, self.kept])
 
     # ------------------------------------------------------------------ a row per vertex
 
     def _rows(self, values: Floats) -> Floats:
         """Values at distinct points as rows of all points."""
-        rows = np.full((*values.shape[:-1], self.found.curves.size), np.nan)
+        rows = np.full((*values.shape[:-1], self.curve_set.curves.size), np.nan)
         rows[..., self.kept] = values
         return rows
 
@@ -185,7 +185,7 @@ class CurveMeasures:
         the angle kappa_g = π − Σθ and the components of the curvature vector T′ − T = −kappa_n ν + kappa_eta η.
         On edges: length, torsion, tangent, Bishop's bishop_u and bishop_v, Darboux's nu and eta.
         """
-        curves, turning, frenet, bishop = self.found.curves, self.turning, self.frenet, self.bishop
+        curves, turning, frenet, bishop = self.curve_set.curves, self.turning, self.frenet, self.bishop
         size = curves.size
         position = np.arange(size) - np.repeat(curves.start[:-1], curves.sizes)
         darboux = self.darboux
@@ -195,7 +195,7 @@ class CurveMeasures:
         return {
             "curve": curves.label.astype(np.int32),
             "position": position.astype(np.int32),
-            "vertex": self.found.vertex.astype(np.int32),
+            "vertex": self.curve_set.vertex.astype(np.int32),
             **dict(zip("xyz", curves.xyz, strict=True)),
             "arc": curves.arc,
             "length": curves.edge_length,

@@ -59,10 +59,10 @@ def plane_curves(turning: Turning) -> PlaneCurves:
 def _farthest(curves: Curves, vectors: Floats, square: Floats) -> Floats:
     """(3, m) on each curve the first vector of largest square."""
     reached = np.flatnonzero(square == np.repeat(curves.max(square), curves.sizes))
-    found, first = np.unique(curves.label[reached], return_index=True)
+    curve, first = np.unique(curves.label[reached], return_index=True)
     chosen: Rows = reached[first]
     result = np.zeros((3, len(curves)))
-    result[:, found] = vectors[:, chosen]
+    result[:, curve] = vectors[:, chosen]
     return result
 
 

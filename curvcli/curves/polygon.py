@@ -152,12 +152,12 @@ class Curves:
 
     def sum(self, values: NDArray[Any]) -> Floats:
         """(m,) sums along each curve, pairwise; nulls (NaN) are left out."""
-        plain = np.asarray(values, np.float64)
-        plain = np.where(np.isnan(plain), 0.0, plain)
+        filled_values = np.asarray(values, np.float64)
+        filled_values = np.where(np.isnan(filled_values), 0.0, filled_values)
         sums = np.zeros(len(self))
         filled = self.sizes > 0
         if filled.any():
-            sums[filled] = np.add.reduceat(plain, self.start[:-1][filled])
+            sums[filled] = np.add.reduceat(filled_values, self.start[:-1][filled])
         return sums
 
     def max(self, values: Floats) -> Floats:

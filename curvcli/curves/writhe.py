@@ -56,9 +56,9 @@ def writhe(curves: Curves, max_edges: int | None = MAX_EDGES) -> tuple[Floats, F
         for begin in range(0, len(alike), step):
             some = alike[begin : begin + step]
             turns[some], error[some] = _small(_corners(curves, xyz, some, size))
-    for one in np.flatnonzero(chosen & (curves.edges > _SMALL)):
-        corners = _corners(curves, xyz, np.array([one]), int(curves.edges[one]))[:, 0]
-        turns[one], error[one] = _large(corners, bool(curves.closed[one]))
+    for curve in np.flatnonzero(chosen & (curves.edges > _SMALL)):
+        corners = _corners(curves, xyz, np.array([curve]), int(curves.edges[curve]))[:, 0]
+        turns[curve], error[curve] = _large(corners, bool(curves.closed[curve]))
     return np.where(error > UNSURE, np.nan, turns), error
 
 
@@ -125,21 +125,21 @@ class _EdgePairs:
 
     def summed(self, apart: NDArray[np.bool_] | None, axis: tuple[int, ...] | None = None) -> tuple[Any, ...]:
         """Sums of the angles, of the conditions and of the crossings, over the pairs that are apart on the curve."""
-        parts = (self.angle, self.condition, self.crossing)
-        kept = parts if apart is None else [None if part is None else np.where(apart, part, 0) for part in parts]
-        return tuple(0.0 if part is None else part.sum(axis) for part in kept)
+        terms = (self.angle, self.condition, self.crossing)
+        kept = terms if apart is None else [None if term is None else np.where(apart, term, 0) for term in terms]
+        return tuple(0.0 if term is None else term.sum(axis) for term in kept)
 
 
-def edge_pairs(one: Floats, other: Floats) -> _EdgePairs:
-    """Signed solid angle of the directions from each edge of `one` to each of `other`, with its condition.
+def edge_pairs(corners: Floats, others: Floats) -> _EdgePairs:
+    """Signed solid angle of the directions from each edge of `corners` to each of `others`, with its condition.
 
-    one: (3, m, r + 1) corners, other: (3, m, c + 1). The sum of the two triangles' half-angles is the argument of
+    corners: (3, m, r + 1), others: (3, m, c + 1). The sum of the two triangles' half-angles is the argument of
     (D₁ + iV)(D₂ + iV), V the triple product of the quadrilateral, D = abc + (a·b)c + (b·c)a + (c·a)b (Van Oosterom and
     Strackee).
     """
-    span = [q[:, None, :] - p[:, :, None] for p, q in zip(one, other, strict=True)]
-    e = [np.diff(p)[:, :, None] for p in one]
-    f = [np.diff(q)[:, None, :] for q in other]
+    span = [q[:, None, :] - p[:, :, None] for p, q in zip(corners, others, strict=True)]
+    e = [np.diff(p)[:, :, None] for p in corners]
+    f = [np.diff(q)[:, None, :] for q in others]
     norm = np.sqrt(span[0] * span[0] + span[1] * span[1] + span[2] * span[2])
     beside = sum(x[:, :, :-1] * x[:, :, 1:] for x in span)
     below = sum(x[:, :-1, :] * x[:, 1:, :] for x in span)

@@ -99,11 +99,11 @@ def read_stream(file: BinaryIO | io.FileIO, limit: int | None = None) -> bytes:
     """
     # Piece by piece: Python handles signals only between two reads.
     read = getattr(file, "read1", file.read)
-    left, parts = sys.maxsize if limit is None else limit, []
+    left, pieces = sys.maxsize if limit is None else limit, []
     while left and (part := read(min(_CHUNK, left)) or _late(file, min(_CHUNK, left))):
-        parts.append(part)
+        pieces.append(part)
         left -= len(part)
-    return b"".join(parts)
+    return b"".join(pieces)
 
 
 def _late(file: BinaryIO | io.FileIO, most: int) -> bytes:
@@ -130,18 +130,18 @@ def inflate(data: bytes, max_bytes: int | None) -> bytes:
     100 times the compressed size, more than any mesh needs).
     """
     limit = max_bytes if max_bytes is not None else free_inflation(len(data))
-    parts: list[bytes] = []
+    pieces: list[bytes] = []
     total = 0
     try:
         with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
             while part := file.read(min(_CHUNK, limit + 1 - total)):
-                parts.append(part)
+                pieces.append(part)
                 total += len(part)
                 if total > limit:
                     raise too_large(f"gzip data that inflate to more than {limit} bytes", limit)
     except (OSError, EOFError, zlib.error) as error:
         raise DamagedError(f"damaged gzip data found ({error})") from None
-    return b"".join(parts)
+    return b"".join(pieces)
 
 
 def free_inflation(size: int) -> int:
@@ -156,6 +156,6 @@ def _irregular(mode: int, path: str | bytes | os.PathLike[Any]) -> InputError:
     return InputError(f"a {kind} found, a regular file expected", hint=hint)
 
 
-def too_large(found: str, limit: int) -> InputError:
+def too_large(what: str, limit: int) -> InputError:
     """The message for an input above a size limit."""
-    return InputError(f"{found} found, at most {limit} allowed", hint="--max-bytes sets the limit")
+    return InputError(f"{what} found, at most {limit} allowed", hint="--max-bytes sets the limit")

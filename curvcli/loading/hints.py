@@ -10,16 +10,16 @@ from .registry import input_formats, suffixes
 
 _MESHIO = "`meshio convert {file} OUT.ply` converts it (`pip install meshio`)"
 _VTK = (
-    """`python -c "import pyvista; pyvista.read('{plain}').extract_surface().save('OUT.ply')"` converts it """
+    """`python -c "import pyvista; pyvista.read('{path}').extract_surface().save('OUT.ply')"` converts it """
     "(`pip install 'curvcli[pictures]'`)"
 )
-_TRIMESH = """`python -c "import trimesh; trimesh.load_mesh('{plain}').export('OUT.ply')"` converts it"""
+_TRIMESH = """`python -c "import trimesh; trimesh.load_mesh('{path}').export('OUT.ply')"` converts it"""
 _NIBABEL = (
     """`python -c "import nibabel, trimesh; trimesh.Trimesh(*nibabel.{reader}, process=False).export('OUT.ply')"` """
     "converts it (`pip install nibabel`)"
 )
-_GIFTI = _NIBABEL.replace("{reader}", "load('{plain}').agg_data()")
-_FREESURFER = _NIBABEL.replace("{reader}", "freesurfer.read_geometry('{plain}')")
+_GIFTI = _NIBABEL.replace("{reader}", "load('{path}').agg_data()")
+_FREESURFER = _NIBABEL.replace("{reader}", "freesurfer.read_geometry('{path}')")
 _CAD = "export it as STL from a CAD program"
 _GMSH = f"{_CAD}, or by `gmsh {{file}} -2 -o OUT.stl`"
 _SCENE = "export it as PLY, OBJ or STL from Blender"
@@ -67,10 +67,10 @@ def suffix_of(path: str) -> str:
 
 def of_suffix(path: str) -> str:
     """A hint with a command that reads or converts a file with this suffix."""
-    words = _WAYS_OUT.get(suffix_of(path))
-    if words is None:
+    hint = _WAYS_OUT.get(suffix_of(path))
+    if hint is None:
         return f"--input-format {'|'.join(input_formats())} reads a file of such a format under another name"
-    return words.format(file=_quoted(path), plain=_inside_quotes(path))
+    return hint.format(file=_quoted(path), path=_inside_quotes(path))
 
 
 def of_folder(path: str) -> str:

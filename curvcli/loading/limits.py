@@ -8,11 +8,11 @@ from ..errors import InputError, UsageError
 from ..support.words import number_of
 
 
-def check_faces(found: int, allowed: int | None) -> None:
+def check_faces(faces: int, allowed: int | None) -> None:
     """Raise InputError for more faces than allowed (None: any number)."""
-    if allowed is not None and found > allowed:
+    if allowed is not None and faces > allowed:
         raise InputError(
-            f"{number_of(found, 'face')} found, at most {allowed} allowed", hint="--max-faces sets the limit"
+            f"{number_of(faces, 'face')} found, at most {allowed} allowed", hint="--max-faces sets the limit"
         )
 
 

@@ -42,8 +42,8 @@ def format_of_name(path: str) -> str:
         return known
     suffix = suffix_of(path)
     expected = f"{', '.join(f'.{ending}' for ending in suffixes())} expected (each also with .gz)"
-    found = f"suffix `.{suffix}` found" if suffix else "no suffix found"
-    raise InputError(f"{found}, {expected}", hint=of_suffix(path))
+    suffix_text = f"suffix `.{suffix}` found" if suffix else "no suffix found"
+    raise InputError(f"{suffix_text}, {expected}", hint=of_suffix(path))
 
 
 def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple[InputFormat, tuple[Notice, ...]]:
@@ -58,18 +58,18 @@ def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple
     promised = None if wanted is None else formats[wanted]
     if promised is not None and not promised.weak_sign and promised.has_sign(pieces):
         return promised, ()
-    found = next((other for other in by_sign() if other is not promised and other.has_sign(pieces)), None)
+    recognised = next((other for other in by_sign() if other is not promised and other.has_sign(pieces)), None)
     if promised is None:
-        if found is None:
+        if recognised is None:
             raise InputError("content not recognised", hint=f"--input-format {'|'.join(formats)} names the format")
-        return found, ()
-    if found is None or (found.weak_sign and promised.weak_sign and promised.has_sign(pieces)):
+        return recognised, ()
+    if recognised is None or (recognised.weak_sign and promised.weak_sign and promised.has_sign(pieces)):
         return promised, ()
     said, way_out = (
-        ("its name", f"rename it to .{found.endings[0]}") if by_name else (_OPTION, f"{_OPTION} {found.name}")
+        ("its name", f"rename it to .{recognised.endings[0]}") if by_name else (_OPTION, f"{_OPTION} {recognised.name}")
     )
-    message = f"file whose content is {found.title}, not {promised.title} as {said} says, and read as such"
-    return found, (Notice("wrong_suffix", 1, message, way_out),)
+    message = f"file whose content is {recognised.title}, not {promised.title} as {said} says, and read as such"
+    return recognised, (Notice("wrong_suffix", 1, message, way_out),)
 
 
 def free_start(start: bytes, size: int, promised: Collection[str]) -> bool:

@@ -93,8 +93,8 @@ def register(format: InputFormat) -> InputFormat:
 def input_formats() -> Mapping[str, InputFormat]:
     """All formats by name, in alphabetical order."""
     folder = import_module(".formats", __package__)
-    for found in iter_modules(folder.__path__):
-        import_module(f"{folder.__name__}.{found.name}")
+    for module in iter_modules(folder.__path__):
+        import_module(f"{folder.__name__}.{module.name}")
     return dict(sorted(_registered.items()))
 
 

@@ -52,8 +52,8 @@ def _columns(data: bytes, suffix: str, max_bytes: int | None) -> dict[str, NDArr
         reason = str(error).strip().partition("\n")[0]
         raise InputError(f"cannot be read as a table: {reason}", hint=hint) from None
     if "vertex" not in frame.columns:
-        found = ", ".join(frame.columns[:8])
-        raise InputError(f"no column `vertex` found among {found}; a vertex table expected", hint=hint)
+        headers = ", ".join(frame.columns[:8])
+        raise InputError(f"no column `vertex` found among {headers}; a vertex table expected", hint=hint)
     if not (frame["vertex"].dtype.is_integer() and (frame["vertex"] == np.arange(frame.height)).all()):
         raise InputError(
             "column `vertex` is not 0, 1, 2, …; a vertex table in the order of its file expected", hint=hint
@@ -63,12 +63,12 @@ def _columns(data: bytes, suffix: str, max_bytes: int | None) -> dict[str, NDArr
         if series.dtype.is_numeric() or series.dtype in (pl.Boolean, pl.Null) or series.null_count() == len(series):
             found_columns[series.name] = series.cast(pl.Float64).fill_null(float("nan")).to_numpy()
         else:
-            words = series.cast(pl.String)
-            if (size := int(words.str.len_bytes().sum())) > limit:
+            texts = series.cast(pl.String)
+            if (size := int(texts.str.len_bytes().sum())) > limit:
                 raise too_large(f"column `{series.name}` of {size} bytes", limit)
-            if suffix != ".parquet" and words.str.starts_with("'").any():
-                words = pl.Series([None if word is None else unescape_cell(word) for word in words], dtype=pl.String)
-            found_columns[series.name] = words.to_numpy()
+            if suffix != ".parquet" and texts.str.starts_with("'").any():
+                texts = pl.Series([None if word is None else unescape_cell(word) for word in texts], dtype=pl.String)
+            found_columns[series.name] = texts.to_numpy()
     return found_columns
 
 

@@ -93,7 +93,7 @@ def plain_lines(data: bytes) -> bytes:
 def tidy(data: bytes) -> bytes:
     """Reduce blanks to one between tokens and none at the ends of a line."""
     text = np.frombuffer(data, np.uint8)
-    parts: list[memoryview] = []
+    blocks: list[memoryview] = []
     last = NEWLINE
     for begin in range(0, len(text), _BLOCK):
         block, following = text[begin : begin + _BLOCK], text[begin + 1 : begin + _BLOCK + 1]
@@ -106,8 +106,8 @@ def tidy(data: bytes) -> bytes:
         indent[1:] &= block[:-1] == NEWLINE
         indent[0] &= last == NEWLINE
         last = int(block[-1])
-        parts.append((block[~indent] if indent.any() else block).data)
-    return b"".join(parts)
+        blocks.append((block[~indent] if indent.any() else block).data)
+    return b"".join(blocks)
 
 
 def without_comments(data: bytes, *, but_in: bytes = b"") -> bytes:
@@ -206,10 +206,10 @@ def read_records(data: bytes, dtype: type[np.generic]) -> Records:
         if columns is not None:
             return Records(width, columns)
     numbers, known = read_tokens(data, dtype)
-    words = np.flatnonzero(~known)
+    names = np.flatnonzero(~known)
     text = np.frombuffer(data, np.uint8)
     rows = np.count_nonzero(text == NEWLINE)
-    if len(words) != rows:
+    if len(names) != rows:
         separators = np.flatnonzero(separates(text))
         if len(numbers) != len(separators):
             raise Untidy
@@ -219,7 +219,7 @@ def read_records(data: bytes, dtype: type[np.generic]) -> Records:
         begin = separators[wrong[0] - 1] + 1
         row = int(np.searchsorted(firsts, wrong[0], side="right")) - 1
         raise Untidy(row, bytes(data[begin : separators[wrong[0]]][:40]))
-    return Records(np.diff(words, append=len(known)) - 1, values=numbers[known])
+    return Records(np.diff(names, append=len(known)) - 1, values=numbers[known])
 
 
 def read_tokens(data: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], NDArray[np.bool_]]:
@@ -250,13 +250,13 @@ def _cast(lines: bytes, dtype: type[np.generic]) -> tuple[NDArray[np.generic], N
     """`read_tokens` without the threads of polars: a cast of a single column needs none."""
     import polars as pl
 
-    words = (lines if dtype is np.float64 else _BEHIND_SLASH.sub(b"", lines))[:-1].decode("latin-1").split("\n")
-    column = pl.Series(words, dtype=pl.String).cast(pl.Float64 if dtype is np.float64 else pl.Int32, strict=False)
+    tokens = (lines if dtype is np.float64 else _BEHIND_SLASH.sub(b"", lines))[:-1].decode("latin-1").split("\n")
+    column = pl.Series(tokens, dtype=pl.String).cast(pl.Float64 if dtype is np.float64 else pl.Int32, strict=False)
     numbers = column.to_numpy()
-    known = np.ones(len(words), np.bool_)
+    known = np.ones(len(tokens), np.bool_)
     if column.null_count():
         undefined = np.flatnonzero(np.isnan(numbers))
-        known[undefined] = [words[k].lower().lstrip("+-") == "nan" for k in undefined.tolist()]
+        known[undefined] = [tokens[k].lower().lstrip("+-") == "nan" for k in undefined.tolist()]
         numbers = np.where(known, numbers, 0).astype(dtype)
     return numbers, known
 

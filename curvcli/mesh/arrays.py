@@ -61,12 +61,12 @@ def frozen(find: Callable[[Any], _Arrays]) -> Callable[[Any], _Arrays]:
     """Make the array that a function returns read-only, for functions with cached results."""
 
     @wraps(find)
-    def found(owner: Any) -> _Arrays:
+    def read_only(owner: Any) -> _Arrays:
         array = find(owner)
         array.setflags(write=False)
         return array
 
-    return found
+    return read_only
 
 
 def freeze(array: NDArray[Any]) -> None:

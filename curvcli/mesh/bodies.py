@@ -29,10 +29,10 @@ def split_bodies(surface: Surface) -> Surface:
     left = np.flatnonzero(mate < 0)
     balanced = np.bincount(edge[left], way[left], minlength=len(crowded)) == 0
     left = left[balanced[edge[left]]]
-    found = _round(surface, half_edges[left], edge[left], way[left])
-    mate[left[found[0]]] = left[found[1]]
-    one = np.flatnonzero(mate >= 0)
-    pairs = [edges.pairs, (half_edges[one], half_edges[mate[one]])]
+    matches = _round(surface, half_edges[left], edge[left], way[left])
+    mate[left[matches[0]]] = left[matches[1]]
+    matched = np.flatnonzero(mate >= 0)
+    pairs = [edges.pairs, (half_edges[matched], half_edges[mate[matched]])]
     # At all other edges a face stays with its neighbour.
     chained = np.flatnonzero((edge[1:] == edge[:-1]) & ~balanced[edge[1:]])
     pairs.append((half_edges[chained], half_edges[chained + 1]))

@@ -82,9 +82,9 @@ def _winding_conflicts(surface: Surface) -> Mask:
     turned = _turned(surface)
     if turned is None:
         return surface.winding_conflicts
-    one, other = (turned[half_edges // 3] for half_edges in surface.edges.pairs)
+    face, neighbour = (turned[half_edges // 3] for half_edges in surface.edges.pairs)
     conflict = surface.winding_conflicts.copy()
-    conflict[surface.edges.inner] ^= one != other
+    conflict[surface.edges.inner] ^= face != neighbour
     return conflict
 
 

@@ -37,7 +37,7 @@ class Polylines(Sequence[NDArray[np.int32]]):
 
     def __getitem__(self, index: int | slice) -> NDArray[np.int32] | list[NDArray[np.int32]]:
         if isinstance(index, slice):
-            return [self[one] for one in range(*index.indices(len(self)))]
+            return [self[record_number] for record_number in range(*index.indices(len(self)))]
         record = range(len(self))[index]
         return self.vertex[self.start[record] : self.start[record + 1]]
 

@@ -42,16 +42,16 @@ class Segments:
 
     def sum(self, values: NDArray[np.generic]) -> NDArray[np.float64]:
         """Sums over each group by pairwise summation, error O(log n · ε); nulls (NaN) are left out."""
-        plain = np.asarray(values, np.float64)
-        if np.isnan(plain).any():
-            plain = np.where(np.isnan(plain), 0.0, plain)
+        numbers = np.asarray(values, np.float64)
+        if np.isnan(numbers).any():
+            numbers = np.where(np.isnan(numbers), 0.0, numbers)
         if self.label is None:
-            return np.array([plain.sum()])
+            return np.array([numbers.sum()])
         order, start, per_group = self._runs
         sums = np.zeros(self.count)
         filled = per_group > 0
         if filled.any():
-            sums[filled] = np.add.reduceat(plain[order], start[filled])
+            sums[filled] = np.add.reduceat(numbers[order], start[filled])
         return sums
 
     def count_of(self, members: NDArray[np.integer]) -> NDArray[np.int64]:

@@ -39,11 +39,11 @@ _KEPT: WeakKeyDictionary[Surface, tuple[Scale, list[tuple[slice, Pattern]]]] = W
 def adjacency(surface: Surface) -> Pattern:
     """(V, V) boolean: the ends of the edges at each vertex, and the vertex itself where a face uses it."""
     own = np.flatnonzero(surface.referenced).astype(np.int32)
-    one = np.concatenate([surface.edges.a, surface.edges.b, own])
-    other = np.concatenate([surface.edges.b, surface.edges.a, own])
-    count, vertices = len(one), surface.n_vertices
+    vertex = np.concatenate([surface.edges.a, surface.edges.b, own])
+    neighbour = np.concatenate([surface.edges.b, surface.edges.a, own])
+    count, vertices = len(vertex), surface.n_vertices
     # The transposition of a sparse matrix is a counting sort.
-    rows = csr_array((other, one, np.arange(count + 1, dtype=np.int32)), shape=(count, vertices)).tocsc()
+    rows = csr_array((neighbour, vertex, np.arange(count + 1, dtype=np.int32)), shape=(count, vertices)).tocsc()
     return csr_array((np.ones(count, bool), rows.data, rows.indptr), shape=(vertices, vertices))
 
 
@@ -79,19 +79,19 @@ def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Patt
     _KEPT.pop(surface, None)
     grow = _Rings(surface, scale) if scale.kind == "rings" else _Balls(surface, scale)
     size = max(min(_ROWS_PER_BLOCK, _ENTRIES_PER_BLOCK // grow.expected), 1)
-    entries, found = 0, []
+    entries, blocks = 0, []
     for block in slices(surface.n_vertices, size):
         for place, rows in _grown(grow, block):
             entries += rows.nnz
             if scale.kind != "rings" and entries > _MOST_EXPECTED * surface.n_vertices:
                 raise _too_far(surface, f"more than {_MOST_EXPECTED:,}")
             if entries <= _MOST_KEPT:
-                found.append((place, rows))
+                blocks.append((place, rows))
             else:
-                found.clear()
+                blocks.clear()
             yield place, rows
     if entries <= _MOST_KEPT:
-        _KEPT[surface] = scale, found
+        _KEPT[surface] = scale, blocks
 
 
 def _too_far(surface: Surface, count: str) -> InputError:
@@ -168,8 +168,8 @@ class _Balls:
             if work[~huge].sum() + reached.nnz > _LARGEST_BLOCK and block.stop - block.start > 1:
                 return None
             # The ends of the next edges were met in this step or the last two.
-            found = _within(self.surface, frontier @ self.near, block, self.radius)
-            fresh = (found > frontier) > previous
+            ends = _within(self.surface, frontier @ self.near, block, self.radius)
+            fresh = (ends > frontier) > previous
             fresh.eliminate_zeros()
             previous, frontier = frontier, fresh
             reached = reached + fresh
@@ -213,8 +213,8 @@ def sums(surface: Surface, scale: Scale, data: Floats) -> Floats:
     """(V, k) sums over the neighbourhood of each vertex of data (V, k), which must be finite; 0 where it is empty."""
     total = np.empty(data.shape)
 
-    def add(found: tuple[slice, Pattern]) -> None:
-        block, rows = found
+    def add(piece: tuple[slice, Pattern]) -> None:
+        block, rows = piece
         total[block] = as_weights(rows) @ data
 
     for_each(neighbourhoods(surface, scale), add)

@@ -37,25 +37,25 @@ class Orientation:
         return 0 if self.face_sign is None else int(np.count_nonzero(self.face_sign < 0))
 
 
-def same_direction(faces: Index, one: Index, other: Index) -> Mask:
+def same_direction(faces: Index, half_edge: Index, twin: Index) -> Mask:
     """(n,) flags: two half-edges of one edge have the same direction, so that their faces disagree."""
-    tail, same = faces.ravel(), np.empty(len(one), bool)
-    for block in slices(len(one), LONG):
-        np.equal(tail.take(one[block]), tail.take(other[block]), out=same[block])
+    tail, same = faces.ravel(), np.empty(len(half_edge), bool)
+    for block in slices(len(half_edge), LONG):
+        np.equal(tail.take(half_edge[block]), tail.take(twin[block]), out=same[block])
     return same
 
 
 def orient(faces: Index, edges: Edges) -> Orientation:
     """Propagate the winding of each patch's lowest face; a patch is orientable if its double cover falls in two."""
-    one, other = edges.pairs
-    disagree = same_direction(faces, one, other)
-    one, other = one // 3, other // 3
+    half_edge, twin = edges.pairs
+    disagree = same_direction(faces, half_edge, twin)
+    face, neighbour = half_edge // 3, twin // 3
     n = len(faces)
     if not disagree.any():
-        labels, patch = label_graph(n, one, other)
+        labels, patch = label_graph(n, face, neighbour)
         count, patch = renumber_by_lowest_member(patch, labels)
         return Orientation(patch, np.ones(count, bool), None)
-    sheet = _double_cover(n, one, other, disagree)
+    sheet = _double_cover(n, face, neighbour, disagree)
     # The two sheets over a patch carry one label where it is not orientable, two where it is.
     count, patch = renumber_by_lowest_member(np.minimum(sheet[:n], sheet[n:]), 2 * n)
     lowest = np.full(count, n, np.int64)
@@ -71,9 +71,9 @@ def orient_stars(faces: Index, edges: Edges) -> Sign:
     A Möbius strip has no global normal, but every star with one fan has a local one; it defines all quantities that are
     even in the normal.
     """
-    one, other = edges.pairs
-    disagree = np.tile(same_direction(faces, one, other), 2)
-    corner, neighbour = neighbouring_corners(faces, one, other)
+    half_edge, twin = edges.pairs
+    disagree = np.tile(same_direction(faces, half_edge, twin), 2)
+    corner, neighbour = neighbouring_corners(faces, half_edge, twin)
     n = 3 * len(faces)
     sheet = _double_cover(n, corner, neighbour, disagree)
     vertex = faces.ravel()
@@ -142,7 +142,7 @@ def closed_patches(faces: Index, edges: Edges, orientation: Orientation) -> Mask
     return closed
 
 
-def _double_cover(nodes: int, one: Index, other: Index, crossing: Mask) -> Index:
+def _double_cover(nodes: int, tail: Index, head: Index, crossing: Mask) -> Index:
     """Components of the graph's double cover (nodes, then their copies); crossing edges change the sheet."""
-    up, down = other + np.where(crossing, nodes, 0), other + np.where(crossing, 0, nodes)
-    return label_graph(2 * nodes, np.concatenate([one, one + nodes]), np.concatenate([up, down]))[1]
+    up, down = head + np.where(crossing, nodes, 0), head + np.where(crossing, 0, nodes)
+    return label_graph(2 * nodes, np.concatenate([tail, tail + nodes]), np.concatenate([up, down]))[1]

@@ -27,14 +27,14 @@ def precision(surface: Surface) -> float:
     """
     used = surface.used_coordinates()
     largest = float(np.abs(used).max())
-    places = decimals(used, largest)
+    digits = decimals(used, largest)
     if is_single(used):
         limit = float(np.finfo(np.float32).max) / 2
         step = float(np.spacing(np.float32(min(largest, limit))))
-        if places is not None:
-            step = min(step, 10.0**-places)
-    elif places is not None:
-        step = 10.0**-places
+        if digits is not None:
+            step = min(step, 10.0**-digits)
+    elif digits is not None:
+        step = 10.0**-digits
     else:
         step = math.ulp(largest)
     return step * _UNIFORM
@@ -62,13 +62,13 @@ def decimals(values: NDArray[np.float64], largest: float) -> int | None:
     large = np.abs(values[np.abs(values) >= _DECADE * largest])
     some = large[:: max(len(large) // _SAMPLE, 1)]
     before = math.floor(math.log10(largest)) + 1
-    for places in range(max(0, 1 - before), _DIGITS - before + 1):
-        if _multiples(some, places) and _multiples(large, places):
-            return places
+    for digits in range(max(0, 1 - before), _DIGITS - before + 1):
+        if _multiples(some, digits) and _multiples(large, digits):
+            return digits
     return None
 
 
-def _multiples(values: NDArray[np.float64], places: int) -> bool:
+def _multiples(values: NDArray[np.float64], digits: int) -> bool:
     """Test whether all values are multiples of that power of ten, to the rounding of doubles."""
-    scaled = values * 10.0**places
+    scaled = values * 10.0**digits
     return bool((np.abs(scaled - np.rint(scaled)) <= 2 * np.finfo(np.float64).eps * scaled).all())

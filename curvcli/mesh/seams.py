@@ -81,13 +81,13 @@ def describe_exact_welding(surface: Surface) -> str:
     way_out = "--weld exact merges them"
     if not len(surface.boundary_half_edges):
         return way_out
-    found = exact_effect(surface)
-    if not found.touched:
+    effect = exact_effect(surface)
+    if not effect.touched:
         return f"{way_out}; none lies on the boundary"
-    if found.closed <= 0:
-        return _with_crowded(way_out, found)
-    all_of = "all " if found.closed == len(surface.boundary_half_edges) > 1 else ""
-    return _with_crowded(f"--weld exact would close {all_of}{counted(found.closed, 'boundary edge')}", found)
+    if effect.closed <= 0:
+        return _with_crowded(way_out, effect)
+    all_of = "all " if effect.closed == len(surface.boundary_half_edges) > 1 else ""
+    return _with_crowded(f"--weld exact would close {all_of}{counted(effect.closed, 'boundary edge')}", effect)
 
 
 def describe_closing(surface: Surface, seam: Seam) -> str:
@@ -128,9 +128,9 @@ def near_seam(surface: Surface) -> Seam | None:
     before = exact_effect(surface).closed
     best, most = tolerances[0], before
     for tolerance in tolerances if len(tolerances) > 1 else ():
-        found = _tried(surface, tolerance, surface.boundary)
-        if found is not None and found.effect.closed > most:
-            best, most = tolerance, found.effect.closed
+        seam = _tried(surface, tolerance, surface.boundary)
+        if seam is not None and seam.effect.closed > most:
+            best, most = tolerance, seam.effect.closed
     whole = _tried(surface, best, None)
     return whole if whole is not None and whole.effect.closed > before else None
 
@@ -158,8 +158,8 @@ def _tolerances(surface: Surface) -> list[str]:
         return []
     gaps = np.maximum(gaps + _ROUNDING, _LEAST)
     jump = np.append(gaps[1:] / gaps[:-1], np.inf)
-    places = np.flatnonzero(jump >= _JUMP)
-    widest = places[np.argsort(jump[places], kind="stable")[::-1][:_TRIED]]
+    jumps = np.flatnonzero(jump >= _JUMP)
+    widest = jumps[np.argsort(jump[jumps], kind="stable")[::-1][:_TRIED]]
     return [_rounded_up(float(gap)) for gap in np.sort(gaps[widest])]
 
 

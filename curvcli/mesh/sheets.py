@@ -37,10 +37,10 @@ def sheets(surface: Surface) -> Surface:
     return Surface(surface.points[vertex], faces, file=file)
 
 
-def on_single_fans(surface: Surface, found: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+def on_single_fans(surface: Surface, columns_of_sheets: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
     """Columns of the sheets as columns of the surface: null, and flags False, at vertices of several fans."""
     columns = {}
-    for name, column in found.items():
+    for name, column in columns_of_sheets.items():
         column = column[..., : surface.n_vertices].copy()
         column[..., surface.nonmanifold] = np.nan if column.dtype.kind == "f" else 0
         column.setflags(write=False)
@@ -74,17 +74,17 @@ def _pairs_of_patches(surface: Surface, chosen: NDArray[np.intp], edges: Edges) 
 
     On an orientable patch the two half-edges must be opposite; other pairs stay cut open.
     """
-    near, found = surface.faces[chosen], surface.orientation
+    near, orientation = surface.faces[chosen], surface.orientation
     crowded = np.flatnonzero(edges.valence > 2)
     half_edges = edges.half_edges(crowded)
-    patch: Index = found.patch[chosen[half_edges // 3]]
+    patch: Index = orientation.patch[chosen[half_edges // 3]]
     edge: NDArray[np.intp] = np.repeat(crowded, edges.valence[crowded])
     order = np.lexsort((patch, edge))
     count = np.unique(np.stack([edge, patch]), axis=1, return_counts=True)[1]
     start = (np.cumsum(count) - count)[count == 2]
-    one, other = (half_edges[order[start + k]] for k in (0, 1))
-    same = same_direction(near, one, other)
-    if found.face_sign is not None:
-        same ^= found.face_sign[chosen[one // 3]] != found.face_sign[chosen[other // 3]]
-    kept = ~same | ~found.orientable[found.patch[chosen[one // 3]]]
-    return one[kept], other[kept]
+    half_edge, twin = (half_edges[order[start + k]] for k in (0, 1))
+    same = same_direction(near, half_edge, twin)
+    if orientation.face_sign is not None:
+        same ^= orientation.face_sign[chosen[half_edge // 3]] != orientation.face_sign[chosen[twin // 3]]
+    kept = ~same | ~orientation.orientable[orientation.patch[chosen[half_edge // 3]]]
+    return half_edge[kept], twin[kept]

@@ -35,16 +35,16 @@ def sides(normal: Vector, other: Floats) -> Sign:
     return result
 
 
-def exact_sides(one: Floats, two: Floats, three: Floats) -> Sign:
-    """The signs of det(one, two, three), none of them 0: vectors (3, n), components at most 1 in size, none all zero.
+def exact_sides(first: Floats, second: Floats, third: Floats) -> Sign:
+    """The signs of det(first, second, third), none of them 0, for vectors (3, n) with components up to 1, none zero.
 
     A zero determinant gets the sign after an infinitesimal perturbation of every component, far larger for the first
     vector than for the second, and for the second than for the third. For vectors in the order of a list all signs are
     those of one list in general position.
     Source: Edelsbrunner and Mücke, Simulation of simplicity, 1990.
     """
-    result = _determinants(one, two, three)
-    for decide in _disturbed(one, two, three):
+    result = _determinants(first, second, third)
+    for decide in _disturbed(first, second, third):
         rest = np.flatnonzero(result == 0)
         if not len(rest):
             break
@@ -52,7 +52,7 @@ def exact_sides(one: Floats, two: Floats, three: Floats) -> Sign:
     return result
 
 
-def _disturbed(one: Floats, two: Floats, three: Floats) -> Iterator[_Decide]:
+def _disturbed(u: Floats, v: Floats, w: Floats) -> Iterator[_Decide]:
     """The sign of a zero determinant: the first nonzero term of its perturbation expansion, from the largest down."""
 
     def minor(a: Floats, b: Floats, without: int, turn: int) -> _Decide:
@@ -62,12 +62,12 @@ def _disturbed(one: Floats, two: Floats, three: Floats) -> Iterator[_Decide]:
     def component(without: int, first: int) -> _Decide:
         last = 3 - without - first
         turn = np.int8(1 if (first, without, last) in _EVEN else -1)
-        return lambda rest: turn * np.sign(three[last, rest]).astype(np.int8)
+        return lambda rest: turn * np.sign(w[last, rest]).astype(np.int8)
 
     for column in range(3):
-        yield minor(two, three, column, 1)
+        yield minor(v, w, column, 1)
     for column in range(3):
-        yield minor(one, three, column, -1)
+        yield minor(u, w, column, -1)
         for first in range(3):
             if first != column:
                 yield component(column, first)
@@ -82,18 +82,18 @@ def _sign_of_difference(a: Floats, b: Floats, c: Floats, d: Floats) -> Sign:
     return result
 
 
-def _determinants(one: Floats, two: Floats, three: Floats) -> Sign:
-    """The signs of det(one, two, three)."""
+def _determinants(first: Floats, second: Floats, third: Floats) -> Sign:
+    """The signs of det(first, second, third)."""
     terms = []
     for order, turn in (*((each, 1.0) for each in _EVEN), *((each, -1.0) for each in _ODD)):
-        a, b, c = (vector[row] for vector, row in zip((one, two, three), order, strict=True))
+        a, b, c = (vector[row] for vector, row in zip((first, second, third), order, strict=True))
         for part in two_product(a, b):
             terms += [turn * each for each in two_product(part, c)]
     result = _sign_of_sum(np.array(terms))
-    size = np.abs([one, two, three])
+    size = np.abs([first, second, third])
     lost = ((size < _SMALL) & (size > 0)).any(axis=(0, 1)) | (result == 2)
     for k in np.flatnonzero(lost):
-        result[k] = _rational(*(vector[:, k].tolist() for vector in (one, two, three)))
+        result[k] = _rational(*(vector[:, k].tolist() for vector in (first, second, third)))
     return result
 
 

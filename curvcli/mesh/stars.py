@@ -60,9 +60,9 @@ def find_stars(faces: Index, vertices: int) -> Stars:
     lowest = np.arange(vertices, dtype=np.int32)
     undecided, rim = count > _WALK_LIMIT, []
     for size, some in _by_face_count(count):
-        found = _walk(faces, corners, size, some, lowest)
-        undecided[found.undecided] = True
-        rim.append(found.rim)
+        walk = _walk(faces, corners, size, some, lowest)
+        undecided[walk.undecided] = True
+        rim.append(walk.rim)
     split, coherent = np.zeros(vertices, bool), True
     if undecided.any():
         chosen = faces_at(faces, undecided)
@@ -81,10 +81,10 @@ def _by_vertex(faces: Index, vertices: int) -> Any:
     """The corners by vertex: a sparse matrix with faces as row indices and positions of corners in them as data."""
     n = len(faces)
     place, start = np.empty(3 * n, np.int8), np.empty(n + 1, np.int32)
-    places = np.tile(np.arange(3, dtype=np.int8), min(n, LONG))
+    corners = np.tile(np.arange(3, dtype=np.int8), min(n, LONG))
     start[n] = 3 * n
     for block in slices(n, LONG):
-        place[3 * block.start : 3 * block.stop] = places[: 3 * (block.stop - block.start)]
+        place[3 * block.start : 3 * block.stop] = corners[: 3 * (block.stop - block.start)]
         start[block] = np.arange(3 * block.start, 3 * block.stop, 3, dtype=np.int32)
     return csr_array((place, faces.ravel(), start), shape=(n, vertices)).tocsc()
 

@@ -25,14 +25,14 @@ _SAMPLE = 8
 class InnerEdges(NamedTuple):
     """Some edges with n_e = 2, indices as intp for fast gathers and scatters.
 
-    where: index of the edges. a, b: (n,) their ends. one, other: (n,) their half-edges.
+    where: index of the edges. a, b: (n,) their ends. half_edge, twin: (n,) their two half-edges.
     """
 
     where: slice | NDArray[np.intp]
     a: NDArray[np.intp]
     b: NDArray[np.intp]
-    one: NDArray[np.intp]
-    other: NDArray[np.intp]
+    half_edge: NDArray[np.intp]
+    twin: NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -114,8 +114,8 @@ class Edges:
         """Positions in `order` of all half-edges of the given edges, one edge after the other."""
         valence = self.valence[edges]
         before = np.cumsum(valence) - valence
-        places: NDArray[np.intp] = np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())
-        return places
+        positions: NDArray[np.intp] = np.repeat(self.start[edges] - before, valence) + np.arange(valence.sum())
+        return positions
 
 
 def _ends(faces: Index) -> tuple[Index, Index]:
@@ -191,14 +191,14 @@ def find_twins(edges: Edges) -> Index:
     twin = np.full(len(edges.order), -1, np.int32)
     pairs = edges.pairs
     for block in slices(len(pairs[0]), LONG):
-        one, other = (np.ascontiguousarray(half_edges[block]) for half_edges in pairs)
-        twin[one.astype(np.intp)], twin[other.astype(np.intp)] = other, one
+        half_edge, opposite = (np.ascontiguousarray(half_edges[block]) for half_edges in pairs)
+        twin[half_edge.astype(np.intp)], twin[opposite.astype(np.intp)] = opposite, half_edge
     return twin
 
 
-def label_graph(nodes: int, one: NDArray[np.integer], other: NDArray[np.integer]) -> tuple[int, Index]:
+def label_graph(nodes: int, tail: NDArray[np.integer], head: NDArray[np.integer]) -> tuple[int, Index]:
     """Number of connected components of an undirected graph, and the component of each node."""
-    graph = csr_array((np.ones(len(one), np.int8), (one, other)), shape=(nodes, nodes))
+    graph = csr_array((np.ones(len(tail), np.int8), (tail, head)), shape=(nodes, nodes))
     count, label = connected_components(graph, directed=False)
     return int(count), label
 
@@ -210,14 +210,14 @@ def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[in
     Every vertex points to its lowest neighbour if that is lower, and pointers are followed to their ends. The few
     roots, vertices without a lower neighbour, are then joined: first by some faces, then by the rest as needed.
     """
-    parent, found = lowest.copy(), []
+    parent, roots = lowest.copy(), []
     for block in slices(len(parent)):  # pointers lead down, to vertices with a final pointer
         here = parent[block]
         while not np.array_equal(further := parent.take(here), here):
             here[:] = further
         own = here == np.arange(block.start, block.stop, dtype=np.int32)
-        found.append(np.flatnonzero(own & referenced[block]) + block.start)
-    ends = np.concatenate(found)
+        roots.append(np.flatnonzero(own & referenced[block]) + block.start)
+    ends = np.concatenate(roots)
     count, number = len(ends), np.zeros_like(parent)
     number[ends] = np.arange(count, dtype=np.int32)
     piece = number.take(parent)
@@ -227,9 +227,9 @@ def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[in
         across = [np.zeros((2, 0), np.int32)]
         for block in slices(len(faces), LONG * step):
             a, b, c = (piece.take(corner) for corner in faces[block][::step].T)
-            for one, other in ((a, b), (b, c)):
-                apart = np.flatnonzero(one != other)
-                across.append(np.stack([one.take(apart), other.take(apart)]))
+            for tail, head in ((a, b), (b, c)):
+                apart = np.flatnonzero(tail != head)
+                across.append(np.stack([tail.take(apart), head.take(apart)]))
         count, label = label_graph(count, *np.concatenate(across, axis=1))
         piece = label.take(piece)
     return count, piece
@@ -259,10 +259,10 @@ def previous_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
     return half_edges + np.where(half_edges % 3 == 0, 2, -1).astype(half_edges.dtype)
 
 
-def neighbouring_corners(faces: Index, one: Index, other: Index) -> tuple[Index, Index]:
+def neighbouring_corners(faces: Index, half_edge: Index, twin_half_edge: Index) -> tuple[Index, Index]:
     """Pairs of corners at the same vertex on the two sides of each edge given by its two half-edges."""
     tail = faces.ravel()
-    same_way = tail[one] == tail[other]
-    at_tail = np.where(same_way, other, next_corner(other))
-    at_head = np.where(same_way, next_corner(other), other)
-    return np.concatenate([one, next_corner(one)]), np.concatenate([at_tail, at_head])
+    same_way = tail[half_edge] == tail[twin_half_edge]
+    at_tail = np.where(same_way, twin_half_edge, next_corner(twin_half_edge))
+    at_head = np.where(same_way, next_corner(twin_half_edge), twin_half_edge)
+    return np.concatenate([half_edge, next_corner(half_edge)]), np.concatenate([at_tail, at_head])

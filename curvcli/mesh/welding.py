@@ -213,5 +213,5 @@ def _near_pairs(tree: cKDTree, reach: float, near: int) -> Iterator[tuple[NDArra
     around = np.cumsum(tree.query_ball_point(tree.data, reach, return_length=True))
     bounds = np.searchsorted(around, np.arange(0, around[-1], _PAIRS)).tolist()
     for begin, end in pairwise([*dict.fromkeys(bounds), tree.n]):
-        found = cKDTree(tree.data[begin:end]).sparse_distance_matrix(tree, reach, output_type="ndarray")
-        yield found["i"] + begin, found["j"]
+        distances = cKDTree(tree.data[begin:end]).sparse_distance_matrix(tree, reach, output_type="ndarray")
+        yield distances["i"] + begin, distances["j"]

@@ -48,11 +48,11 @@ def resolve(path: str) -> Place:
 
 def stream_number(path: str) -> int | None:
     """Descriptor behind /dev/stdout, /dev/fd/N and the like, which must not be replaced by a file."""
-    plain = os.path.normpath(path)
+    normal = os.path.normpath(path)
     for folder in _STREAM_FOLDERS:
-        if plain.startswith(folder) and plain.removeprefix(folder).isdecimal():
-            return int(plain.removeprefix(folder))
-    return _STREAM_NAMES.get(plain)
+        if normal.startswith(folder) and normal.removeprefix(folder).isdecimal():
+            return int(normal.removeprefix(folder))
+    return _STREAM_NAMES.get(normal)
 
 
 def beside(final: str) -> str:
@@ -74,23 +74,23 @@ def probe(folder: str) -> bool:
             os.unlink(name)
 
 
-def same_file(one: Place, two: Place) -> bool:
+def same_file(first: Place, second: Place) -> bool:
     """True if two names lead to one file: equal, linked, or alike but for case where the file system ignores it."""
-    if one.direct or two.direct:
-        streams = stream_number(one.final), stream_number(two.final)
+    if first.direct or second.direct:
+        streams = stream_number(first.final), stream_number(second.final)
         if streams[0] is not None or streams[1] is not None:
             return streams[0] == streams[1]
         # Several outputs may go to /dev/null.
-        if os.devnull in (one.final, two.final):
+        if os.devnull in (first.final, second.final):
             return False
-    if one.final == two.final:
+    if first.final == second.final:
         return True
     with contextlib.suppress(OSError):
-        if os.path.samefile(one.final, two.final):
+        if os.path.samefile(first.final, second.final):
             return True
-    if one.direct or two.direct:
+    if first.direct or second.direct:
         return False
-    return folded(one.final) == folded(two.final) and probe(os.path.dirname(one.final))
+    return folded(first.final) == folded(second.final) and probe(os.path.dirname(first.final))
 
 
 def folded(path: str) -> str:

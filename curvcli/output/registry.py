@@ -97,10 +97,10 @@ def register(format: Format) -> None:
 def output_formats() -> Mapping[str, Format]:
     """All formats by suffix, in the order of the documentation."""
     folder = import_module(".formats", __package__)
-    for found in iter_modules(folder.__path__):
-        import_module(f"{folder.__name__}.{found.name}")
-    order = sorted(_registered.values(), key=lambda one: (_KINDS.index(one.kind), one.place, one.suffix))
-    return {one.suffix: one for one in order}
+    for module in iter_modules(folder.__path__):
+        import_module(f"{folder.__name__}.{module.name}")
+    order = sorted(_registered.values(), key=lambda format: (_KINDS.index(format.kind), format.place, format.suffix))
+    return {format.suffix: format for format in order}
 
 
 def mesh_color(appearance: Appearance, chosen: list[str]) -> list[str]:
@@ -135,7 +135,7 @@ def format_of(path: str, *, name: str | None = None, kinds: Collection[OutputKin
         return output_formats()[suffix]
     where = f"--format {name}" if name is not None else escape_text(path)
     problem = f"unknown format {given!r}" if given else "a name without a suffix"
-    known = promised if name is None else [one.removeprefix(".") for one in promised]
+    known = promised if name is None else [known_suffix.removeprefix(".") for known_suffix in promised]
     written = suffix if name is None else given
     way_out = suggestion(written, known, f"known here are {_listed(promised, dot=name is None)}")
     raise UsageError(f"{where}: {problem}{way_out}")

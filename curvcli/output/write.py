@@ -48,14 +48,14 @@ def needs(formats: Iterable[Format], tables: Iterable[str], appearance: Appearan
 
     tables: kinds of tables. chosen: names of quantities, at each scale.
     """
-    found = {
+    names = {
         quantity.name for kind in ("edge", "face") if f"{kind}s" in {*tables} for quantity in passes.quantities(kind)
     }
     columns: set[str] = set()
-    for one in formats:
-        if one.shows is not None:
-            columns.update(one.shows(appearance, chosen))
-    return found.union(*(color_needs(name, chosen) for name in columns)).difference(chosen)
+    for format in formats:
+        if format.shows is not None:
+            columns.update(format.shows(appearance, chosen))
+    return names.union(*(color_needs(name, chosen) for name in columns)).difference(chosen)
 
 
 def write_into(
@@ -78,7 +78,7 @@ def write_into(
     ranges: list[str] = []
     formats = {path: format_of(path, name=stream_format if path == "-" else None) for path in paths}
     tables = list(tables)
-    if tables or any(found.kind == "table" for found in formats.values()):
+    if tables or any(format.kind == "table" for format in formats.values()):
         require_polars(64 * min(analysis.surface.n_vertices, ROWS_IN_A_FRAME))
     stop = Event()
     with ThreadPoolExecutor(1) as other:
@@ -87,16 +87,16 @@ def write_into(
                 other.submit(_write_table, outputs, path, columns, suffix, appearance.precision, stop)
                 for path, columns, suffix in _tables(analysis, formats, tables, stream_format)
             ]
-            for path, found in formats.items():
-                if isinstance(found, MeshFormat):
+            for path, format in formats.items():
+                if isinstance(format, MeshFormat):
                     with outputs.open(path) as stream:
-                        notices += _write_mesh(stream, analysis, found, appearance)
+                        notices += _write_mesh(stream, analysis, format, appearance)
             if checked is not None:
                 checked.result()
-            for path, found in formats.items():
-                if isinstance(found, DocumentFormat):
+            for path, format in formats.items():
+                if isinstance(format, DocumentFormat):
                     with outputs.open(path) as stream:
-                        ranges += [f"{path}: {line}" for line in found.write(stream, analysis, appearance, command)]
+                        ranges += [f"{path}: {line}" for line in format.write(stream, analysis, appearance, command)]
             for table in written:
                 table.result()
         except BaseException:
@@ -112,9 +112,9 @@ def _tables(
     for kind, path in others:
         suffix = format_of(path, name=stream_format if path == "-" else None, kinds=["table"]).suffix
         yield path, TABLES[kind](analysis), suffix
-    wanted = [path for path, found in formats.items() if found.kind == "table"]
-    columns = vertex_table(analysis) if wanted else {}
-    yield from ((path, columns, formats[path].suffix) for path in wanted)
+    table_paths = [path for path, format in formats.items() if format.kind == "table"]
+    columns = vertex_table(analysis) if table_paths else {}
+    yield from ((path, columns, formats[path].suffix) for path in table_paths)
 
 
 def _write_table(outputs: Outputs, path: str, columns: Table, suffix: str, precision: str | int, stop: Event) -> None:
@@ -132,17 +132,21 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
     """
     parse_view(appearance.picture.view)
     formats = [format for suffix, format in output_formats().items() if suffix in {*suffixes}]
-    pictures = [one for one in formats if isinstance(one, DocumentFormat) and one.kind == "picture" and one.shows]
+    pictures = [
+        output_format
+        for output_format in formats
+        if isinstance(output_format, DocumentFormat) and output_format.kind == "picture" and output_format.shows
+    ]
     if pictures:
-        count = max(len(list(one.shows(appearance, chosen))) for one in pictures if one.shows)
+        count = max(len(list(picture.shows(appearance, chosen))) for picture in pictures if picture.shows)
         check_picture_options(
             appearance.picture,
             count,
-            surface=any(one.camera for one in pictures),
-            page=any(one.page for one in pictures),
+            surface=any(picture.camera for picture in pictures),
+            page=any(picture.page for picture in pictures),
         )
-    for one in formats:
-        one.require()
+    for output_format in formats:
+        output_format.require()
     if appearance.precision != "shortest":
         from .tables.write import parse_precision
 
@@ -153,10 +157,14 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
         colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
     for name in appearance.color_by:
         quantity = colored_quantity(name, chosen)
-        elsewhere = sorted(one.suffix for one in formats if one.shows is not None and not one.edges)
-        if quantity.on == "edge" and elsewhere:
+        lacking = sorted(
+            output_format.suffix
+            for output_format in formats
+            if output_format.shows is not None and not output_format.edges
+        )
+        if quantity.on == "edge" and lacking:
             raise UsageError(
-                f"--color-by {name}: a column of edges, for which {elsewhere[0]} has no colours; use a picture (.png), "
+                f"--color-by {name}: a column of edges, for which {lacking[0]} has no colours; use a picture (.png), "
                 "a page (.html) or --table edges=PATH"
             )
 

@@ -61,17 +61,17 @@ def model(
 ) -> Accuracy:
     """Build the report; rtol: bound on relative L2 errors, None for no bound."""
     names = ColumnErrors.__struct_fields__
-    found = {one.column: ColumnErrors(*(getattr(one, name) for name in names)) for one in errors}
-    equal = rtol is None or all(one.relative_l2 is None or one.relative_l2 <= rtol for one in found.values())
-    return Accuracy(1, __version__, mesh, exact, scale, rtol, equal, found, unmatched, notes)
+    columns = {error.column: ColumnErrors(*(getattr(error, name) for name in names)) for error in errors}
+    equal = rtol is None or all(column.relative_l2 is None or column.relative_l2 <= rtol for column in columns.values())
+    return Accuracy(1, __version__, mesh, exact, scale, rtol, equal, columns, unmatched, notes)
 
 
-def table(found: Accuracy) -> dict[str, Any]:
+def table(accuracy: Accuracy) -> dict[str, Any]:
     """One row per column as columns of a table file."""
     from ..mesh.file import Labels
 
     columns: dict[str, Any] = {}
-    rows = list(found.errors.items())
+    rows = list(accuracy.errors.items())
     for header, names in (("column", [name for name, _ in rows]), ("exact", [row.exact for _, row in rows])):
         known = tuple(dict.fromkeys(names))
         columns[header] = Labels(np.array([known.index(name) for name in names], np.int32), known)

@@ -57,13 +57,13 @@ def as_text(terminal: int | None = None) -> str:
     widths = [max(len(row[k]) for row in rows) for k in range(len(HEADER))]
     if terminal is not None and sum(widths) + 2 * len(widths) - 2 > terminal:
         rows, widths = [(row[0], *row[3:]) for row in rows], [widths[0], *widths[3:]]
-    parts = ["# Choosing a curvature", ""]
+    lines = ["# Choosing a curvature", ""]
     for sentence in SENTENCES:
-        parts += [*wrap(sentence, width - 2, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)]
-    parts.append("")
+        lines += [*wrap(sentence, width - 2, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)]
+    lines.append("")
     for row in rows:
-        parts.append("  ".join(f"{cell:{space}}" for cell, space in zip(row, widths, strict=True)).rstrip())
-    return "\n".join([*parts, "", *wrap(NOTE, width)]) + "\n"
+        lines.append("  ".join(f"{cell:{space}}" for cell, space in zip(row, widths, strict=True)).rstrip())
+    return "\n".join([*lines, "", *wrap(NOTE, width)]) + "\n"
 
 
 def _marked(text: str) -> str:

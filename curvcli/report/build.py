@@ -135,21 +135,21 @@ def _extras(analysis: Result, groups: Groups) -> dict[str, Callable[[int], Any]]
     """Values that need certain passes: for each key a function from the group to its value."""
     surface, columns = analysis.surface, analysis.columns
     factor = 0.5 if analysis.conventions.mean == "average" else 1.0
-    found: dict[str, Callable[[int], Any]] = {}
+    extras: dict[str, Callable[[int], Any]] = {}
     if columns.keys() >= {"H_vec", "A_vec"}:
         bent = constant_mean_curvature(surface, groups, columns)
         exponents = {"H": -1, "residual_max": 1, "residual_density_max": -1, "H_vec_max": 1, "H_vec_density_max": -1}
         shown = {key: _json_list(surface.in_file_unit(values, exponents[key]) * factor) for key, values in bent.items()}
-        found["cmc"] = lambda group: Cmc(**{key: shown[key][group] for key in Cmc.__struct_fields__})
-        found["minimal"] = lambda group: Minimal(**{key: shown[key][group] for key in Minimal.__struct_fields__})
+        extras["cmc"] = lambda group: Cmc(**{key: shown[key][group] for key in Cmc.__struct_fields__})
+        extras["minimal"] = lambda group: Minimal(**{key: shown[key][group] for key in Minimal.__struct_fields__})
     if columns.keys() >= {"H_vec", "star_vector"}:
         angles = {key: _json_list(values) for key, values in competing_normals(surface, groups, columns).items()}
-        found["normals"] = lambda group: Normals(angles["angle_max"][group], angles["angle_mean"][group])
+        extras["normals"] = lambda group: Normals(angles["angle_max"][group], angles["angle_mean"][group])
     if columns.keys() >= {"face_area", "H_theta", "K", "K_minus"}:
         polynomial = steiner(surface, groups, columns)
         rows = _json_list(polynomial["coefficients"])
-        found["steiner"] = lambda group: Steiner(rows[group], bool(polynomial["convex"][group]))
-    return found
+        extras["steiner"] = lambda group: Steiner(rows[group], bool(polynomial["convex"][group]))
+    return extras
 
 
 def _counts(analysis: Result, groups: Groups) -> dict[str, list[Any]]:

@@ -92,7 +92,7 @@ class CurveReport(msgspec.Struct):
 
 def model(measures: CurveMeasures, *, weld: str = "none", unit: str | None = None) -> CurveReport:
     """Build the report of a set of curves."""
-    file = measures.found.file
+    file = measures.curve_set.file
     return CurveReport(
         schema_version=1,
         curvcli=__version__,

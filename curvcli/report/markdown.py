@@ -28,7 +28,7 @@ def markdown(report: Report, command: str | None = None) -> str:
     """One line of verdict; checks, failing first; warnings with hints; topology, totals, conventions, command."""
     failed = any(row.status == "fail" for row in report.checks)
     name = _code({None: "arrays in memory", "-": "stdin"}.get(report.input.path, str(report.input.path)))
-    parts = [
+    sections = [
         f"### curvcli: {name}",
         f"**{'FAIL' if failed else 'pass'}** · {verdict(report)} · {shape(report.topology)}",
         "\n".join(_warnings(report)),
@@ -43,9 +43,9 @@ def markdown(report: Report, command: str | None = None) -> str:
         ),
     ]
     if command is not None:
-        parts.append(_fenced(command))
-    parts.append(f"<sub>curvcli {report.curvcli}{_hash(report)}</sub>")
-    return "\n\n".join(part for part in parts if part) + "\n"
+        sections.append(_fenced(command))
+    sections.append(f"<sub>curvcli {report.curvcli}{_hash(report)}</sub>")
+    return "\n\n".join(part for part in sections if part) + "\n"
 
 
 def _checks(report: Report) -> str:
@@ -85,8 +85,8 @@ def _topology(report: Report) -> str:
     return _table(known, [known.values()])
 
 
-def _folded(summary: str, *parts: str) -> str:
-    return "\n\n".join([f"<details><summary>{summary}</summary>", *parts, "</details>"])
+def _folded(summary: str, *sections: str) -> str:
+    return "\n\n".join([f"<details><summary>{summary}</summary>", *sections, "</details>"])
 
 
 def _table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
@@ -105,10 +105,10 @@ def _text(text: str) -> str:
 
     Text between backticks is code.
     """
-    parts = escape_text(text).split("`")
-    if len(parts) % 2 == 0:
+    segments = escape_text(text).split("`")
+    if len(segments) % 2 == 0:
         return _escaped(text)
-    return "".join(_code(part) if k % 2 else _escaped(part) for k, part in enumerate(parts))
+    return "".join(_code(part) if k % 2 else _escaped(part) for k, part in enumerate(segments))
 
 
 def _escaped(text: str) -> str:

@@ -29,9 +29,9 @@ CONVENTIONS = (
 )
 
 
-def vector(parts: Iterable[float | None]) -> list[float | None] | None:
+def vector(components: Iterable[float | None]) -> list[float | None] | None:
     """Vector from its components; null if a component is."""
-    listed = list(parts)
+    listed = list(components)
     return None if all(part is None for part in listed) else listed
 
 
@@ -171,9 +171,9 @@ def _whole(value: Any) -> Any:
         case str():
             return value if value.isprintable() else _without_halves(value)
         case list() | tuple():
-            return [_whole(one) for one in value]
+            return [_whole(item) for item in value]
         case dict():
-            return {_whole(key): _whole(one) for key, one in value.items()}
+            return {_whole(key): _whole(entry) for key, entry in value.items()}
     return value
 
 
@@ -193,9 +193,9 @@ def schema() -> bytes:
     """JSON Schema of the report."""
     from .quantities import public, unmarked
 
-    found = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
-    require_all_keys(found["$defs"])
-    properties = found["$defs"]["Report"]["properties"]
+    document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(Report)}
+    require_all_keys(document["$defs"])
+    properties = document["$defs"]["Report"]["properties"]
     quantities = [quantity for quantity in public() if quantity.on == "vertex" and quantity.kind != "label"]
     properties["columns"]["properties"] = {
         column: {
@@ -205,9 +205,9 @@ def schema() -> bytes:
         for quantity in quantities
         for column in quantity.columns
     }
-    for piece in (found["$defs"]["Report"], found["$defs"]["Piece"]):
+    for piece in (document["$defs"]["Report"], document["$defs"]["Piece"]):
         piece["properties"]["totals"]["properties"] = {
             quantity.total or "": {"description": unmarked(f"Σ {quantity.name}: {quantity.description}")}
             for quantity in passes.totals()
         }
-    return encode(found)
+    return encode(document)

@@ -22,38 +22,38 @@ SHOWN_ROWS = 100
 def verdict(report: Report) -> str:
     """Numbers of identities that hold, fail and do not apply, and of warnings, in one line."""
     counts = {status: sum(row.status == status for row in report.checks) for status in _RANK}
-    parts = []
+    clauses = []
     if counts["fail"]:
-        parts.append(counted(counts["fail"], "identity fails", "identities fail"))
-    parts.append(counted(counts["pass"], "identity holds", "identities hold"))
+        clauses.append(counted(counts["fail"], "identity fails", "identities fail"))
+    clauses.append(counted(counts["pass"], "identity holds", "identities hold"))
     if counts["not_applicable"]:
-        parts.append(f"{counts['not_applicable']:,} not applicable")
-    parts.append(counted(len(report.warnings), "warning") if report.warnings else "no warnings")
-    return ", ".join(parts)
+        clauses.append(f"{counts['not_applicable']:,} not applicable")
+    clauses.append(counted(len(report.warnings), "warning") if report.warnings else "no warnings")
+    return ", ".join(clauses)
 
 
 def shape(topology: Topology) -> str:
     """Shape of the surface: its pieces, its boundary, its genus."""
-    words = [
+    clauses = [
         "closed" if topology.closed else counted(topology.boundary_edges, "boundary edge"),
         "manifold" if topology.manifold else "not manifold",
         "orientable" if topology.orientable else "not orientable",
     ]
     if topology.components > 1:
-        words.insert(0, counted(topology.components, "component"))
+        clauses.insert(0, counted(topology.components, "component"))
     if topology.genus is not None:
-        words.append(f"genus {topology.genus}")
+        clauses.append(f"genus {topology.genus}")
     for count, name in ((topology.crosscaps, "crosscap"), (topology.boundary_loops, "boundary loop")):
         if count:
-            words.append(counted(count, name))
-    return ", ".join(words)
+            clauses.append(counted(count, name))
+    return ", ".join(clauses)
 
 
 def conventions(report: Report) -> dict[str, str]:
     """Options chosen, in words; of options that only some columns depend on, those that were used."""
     chosen = report.conventions
     turned = "closed patches that were inside out are turned" if chosen["orient"] == "outward" else "as the file has it"
-    found = {
+    sentences = {
         "mean curvature": ("H = κ₁ + κ₂, 2/r on a sphere" if chosen["mean"] == "sum" else "H = (κ₁ + κ₂)/2")
         + "; positive where the surface is convex seen from the side its normals point to",
         "area of K_density": str(chosen["area"]),
@@ -66,8 +66,8 @@ def conventions(report: Report) -> dict[str, str]:
     }
     described = ("mean", "area", "orient", "weld", "unit", "bending_rigidity")
     if chosen.get("bending_rigidity") is not None:
-        found["energies"] = f"times the bending rigidity κ = {chosen['bending_rigidity']}"
-    return found | {key: str(value) for key, value in chosen.items() if key not in described and value is not None}
+        sentences["energies"] = f"times the bending rigidity κ = {chosen['bending_rigidity']}"
+    return sentences | {key: str(value) for key, value in chosen.items() if key not in described and value is not None}
 
 
 def failing_first(rows: Iterable[Check]) -> list[Check]:
@@ -103,8 +103,8 @@ def shell_quoted(arguments: Iterable[str]) -> str:
 def _quoted(argument: str) -> str:
     if argument.isprintable():
         return shlex.quote(argument)
-    plain = "".join(chr(byte) if 32 <= byte < 127 else f"\\x{byte:02x}" for byte in _escaped(argument))
-    return f"$'{plain}'"
+    escaped = "".join(chr(byte) if 32 <= byte < 127 else f"\\x{byte:02x}" for byte in _escaped(argument))
+    return f"$'{escaped}'"
 
 
 def _escaped(argument: str) -> bytes:

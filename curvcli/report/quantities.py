@@ -123,13 +123,13 @@ def parameter_sentence(knob: Knob) -> str:
 
 def _needs(name: str) -> list[str]:
     """Public quantities that it is computed from; a hidden one is replaced by its own needs."""
-    found: list[str] = []
+    public_needs: list[str] = []
     for need in passes.provider(name).needs:
         if need == CELL_AREA or (need not in NO_QUANTITIES and passes.quantity(need).public):
-            found.append(need)
+            public_needs.append(need)
         elif need not in NO_QUANTITIES:
-            found += _needs(need)
-    return list(dict.fromkeys(found))
+            public_needs += _needs(need)
+    return list(dict.fromkeys(public_needs))
 
 
 def smallest_preset(quantity: Quantity) -> str:
@@ -156,7 +156,7 @@ _MEAN = {0: "", 1: "halved", 2: "quartered"}
 
 def page() -> str:
     """Documentation page of all quantities, in Markdown."""
-    parts = [
+    sections = [
         "# Quantities\n",
         "Made by `curvcli passes --markdown`. H = κ₁ + κ₂, positive where the surface is convex seen from the side its "
         "normal points to. A measure is integrated over the star of a vertex; a density is per area. At a vertex that "
@@ -166,7 +166,7 @@ def page() -> str:
     for quantity in public():
         if quantity.on != element:
             element = quantity.on
-            parts.append(f"## {_HEADINGS[element]}\n")
+            sections.append(f"## {_HEADINGS[element]}\n")
         shown = facts(quantity)
         columns = ", ".join(f"`{column}`" for column in quantity.columns)
         rows = [
@@ -183,7 +183,7 @@ def page() -> str:
             ("needs", ", ".join(shown["needs"])),
             *((f"`--set {knob['name']}=…`", parameter_sentence(knob)) for knob in shown["parameters"]),
         ]
-        parts.append(f"### `{quantity.name}` {shown['symbol']}\n")
-        parts.append(f"{quantity.description}\n")
-        parts.append("\n".join(f"* {label}: {value}" for label, value in rows if value) + "\n")
-    return "\n".join(parts)
+        sections.append(f"### `{quantity.name}` {shown['symbol']}\n")
+        sections.append(f"{quantity.description}\n")
+        sections.append("\n".join(f"* {label}: {value}" for label, value in rows if value) + "\n")
+    return "\n".join(sections)

@@ -79,13 +79,13 @@ def of_parametrisation(
 
 def of_graph(fx: FloatArray, fy: FloatArray, fxx: FloatArray, fxy: FloatArray, fyy: FloatArray) -> ExactColumns:
     """Columns of the graph z = f(x, y), normal upward, from the derivatives of f, each (V,)."""
-    zero, one = np.zeros_like(fx), np.ones_like(fx)
+    zero, unit = np.zeros_like(fx), np.ones_like(fx)
 
     def column(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
         return np.stack([x, y, z], axis=1)
 
     second = [column(zero, zero, f) for f in (fxx, fxy, fyy)]
-    return of_parametrisation(column(one, zero, fx), column(zero, one, fy), *second)
+    return of_parametrisation(column(unit, zero, fx), column(zero, unit, fy), *second)
 
 
 def of_quadric(weights: tuple[float, float, float], points: FloatArray) -> ExactColumns:
@@ -99,7 +99,7 @@ def of_quadric(weights: tuple[float, float, float], points: FloatArray) -> Exact
     e1 /= np.linalg.norm(e1, axis=1)[:, None]
     e2 = np.cross(normal, e1)
     hessian = 2 * np.asarray(weights)
-    entries = (_dot(one * hessian, other) / length for one, other in ((e1, e1), (e1, e2), (e2, e2)))
+    entries = (_dot(first * hessian, second) / length for first, second in ((e1, e1), (e1, e2), (e2, e2)))
     return facing(of_shape_operator(*entries), normal)
 
 

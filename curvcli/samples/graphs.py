@@ -38,8 +38,8 @@ def cap(*, size: int = 1000, radius: float = 1.0, angle: float = 50.0) -> Sample
 def paraboloid(*, size: int = 1000, radius: float = 1.0, focus: float = 1.0) -> Sample:
     """focus: the radius of curvature at the top (twice the focal length)."""
     x, y, faces = _round(size, radius, focus)
-    one = np.full_like(x, -1 / focus)
-    exact = of_graph(-x / focus, -y / focus, one, 0 * x, one)
+    second_derivative = np.full_like(x, -1 / focus)
+    exact = of_graph(-x / focus, -y / focus, second_derivative, 0 * x, second_derivative)
     height = (radius**2 - x**2 - y**2) / (2 * focus)
     total = 2 * math.pi * (1 - 1 / math.hypot(1, radius / focus))
     limit = {"area": _quadratic_area(radius, focus), "K": total, "kappa_g": 2 * math.pi - total}
@@ -53,8 +53,8 @@ def paraboloid(*, size: int = 1000, radius: float = 1.0, focus: float = 1.0) -> 
 def saddle(*, size: int = 1000, radius: float = 1.0, focus: float = 1.0) -> Sample:
     """focus: the radius of both principal curvatures in the middle."""
     x, y, faces = _round(size, radius, focus)
-    one = np.full_like(x, 1 / focus)
-    exact = of_graph(x / focus, -y / focus, one, 0 * x, -one)
+    second_derivative = np.full_like(x, 1 / focus)
+    exact = of_graph(x / focus, -y / focus, second_derivative, 0 * x, -second_derivative)
     total = -2 * math.pi * (1 - 1 / math.hypot(1, radius / focus))
     limit = {"area": _quadratic_area(radius, focus), "K": total, "kappa_g": 2 * math.pi - total, "H_theta": 0.0}
     return Sample(np.stack([x, y, (x**2 - y**2) / (2 * focus)], axis=1), faces, exact, orientable(loops=1), limit)

@@ -93,7 +93,7 @@ def _three_ends(w: ComplexArray) -> tuple[FloatArray, ComplexArray, ComplexArray
         slope = top.deriv() * below - top * below.deriv()
         bend = slope.deriv() * below - 2 * slope * below.deriv()
         values.append((top(w) / below(w), slope(w) / below(w) ** 2, bend(w) / below(w) ** 3))
-    f, first, second = (np.stack(parts, axis=1) for parts in zip(*values, strict=True))
+    f, first, second = (np.stack(components, axis=1) for components in zip(*values, strict=True))
     return f.real - np.array([0.0, 0.0, 0.5]), first, second
 
 

@@ -69,11 +69,11 @@ def is_out_of_memory(error: BaseException) -> bool:
     Extensions that do not check for NULL cause a SystemError, and the import system raises errors of any type.
     """
     return any(
-        isinstance(one, MemoryError)
-        or (isinstance(one, OSError) and one.errno == errno.ENOMEM)
-        or ((isinstance(one, SystemError) or _within_an_import(one)) and limited())
-        or any(words in str(one).lower() for words in _WORDS)
-        for one in _causes(error)
+        isinstance(cause, MemoryError)
+        or (isinstance(cause, OSError) and cause.errno == errno.ENOMEM)
+        or ((isinstance(cause, SystemError) or _within_an_import(cause)) and limited())
+        or any(phrase in str(cause).lower() for phrase in _WORDS)
+        for cause in _causes(error)
     )
 
 
@@ -85,12 +85,12 @@ def _within_an_import(error: BaseException) -> bool:
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
     """Yield the exception and its chain of causes and contexts."""
-    one: BaseException | None = error
+    cause: BaseException | None = error
     seen: set[int] = set()
-    while one is not None and id(one) not in seen:
-        seen.add(id(one))
-        yield one
-        one = one.__cause__ or one.__context__
+    while cause is not None and id(cause) not in seen:
+        seen.add(id(cause))
+        yield cause
+        cause = cause.__cause__ or cause.__context__
 
 
 def limited() -> bool:

@@ -15,18 +15,18 @@ def pluralize(count: float, text: str) -> str:
     return _CHOICE.sub(r"\1" if count == 1 else r"\2", text)
 
 
-def counted(count: int, one: str, many: str | None = None) -> str:
-    """A number with its noun: `1 face`, `1,000 faces`. many: the plural, by default the singular and an s."""
-    return f"{count:,} {_form(count, one, many)}"
+def counted(count: int, singular: str, plural: str | None = None) -> str:
+    """A number with its noun: `1 face`, `1,000 faces`. plural: by default the singular and an s."""
+    return f"{count:,} {_form(count, singular, plural)}"
 
 
-def number_of(count: int, one: str, many: str | None = None) -> str:
+def number_of(count: int, singular: str, plural: str | None = None) -> str:
     """A number with its noun, without thousands separators, as files write it: `1000 faces`."""
-    return f"{count} {_form(count, one, many)}"
+    return f"{count} {_form(count, singular, plural)}"
 
 
-def _form(count: int, one: str, many: str | None) -> str:
-    return one if count == 1 else many or one + "s"
+def _form(count: int, singular: str, plural: str | None) -> str:
+    return singular if count == 1 else plural or singular + "s"
 
 
 def escape_text(text: str) -> str:
@@ -100,14 +100,14 @@ _SHORT = 8
 def suggest(name: str, known: Iterable[str]) -> list[str]:
     """Up to three known names similar to this one, best first; case is ignored, `-` and `_` are the same."""
     folded: dict[str, list[str]] = {}
-    for one in known:
-        folded.setdefault(_folded(one), []).append(one)
+    for candidate in known:
+        folded.setdefault(_folded(candidate), []).append(candidate)
     wanted = _folded(name.strip())
     if wanted in folded:
         return folded[wanted][:3]
     near = get_close_matches(wanted, folded, 3, _CUTOFF)
     begun = [key for key in folded if key.startswith(wanted)] if len(wanted) > 2 else []
-    return [one for key in dict.fromkeys([*near, *sorted(begun, key=len)]) for one in folded[key]][:3]
+    return [candidate for key in dict.fromkeys([*near, *sorted(begun, key=len)]) for candidate in folded[key]][:3]
 
 
 def _folded(name: str) -> str:

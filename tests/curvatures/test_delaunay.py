@@ -243,7 +243,7 @@ def test_a_one_sided_surface_is_covered_twice() -> None:
     assert glued.twofold is not None
     assert glued.twofold.all()
     assert len(glued.single) == 2 * strip.boundary_edges.sum()
-    np.testing.assert_array_equal(glued.tail[glued.one], glued.tail[next_corner(glued.other)])
+    np.testing.assert_array_equal(glued.tail[glued.half_edge], glued.tail[next_corner(glued.twin)])
     np.testing.assert_array_equal(np.bincount(glued.tail), 2 * strip.corner_count)
 
 

@@ -74,16 +74,16 @@ class PolyhedralManifold:
         inward conormal of the other. Orthogonal; of determinant +1 where the two simplices agree in orientation. Null
         on the boundary.
         """
-        found = np.full((len(self.ridges), self.n, self.n), np.nan)
+        rotation = np.full((len(self.ridges), self.n, self.n), np.nan)
         inside = np.flatnonzero(self.complex.sides[:, 1] >= 0)
-        one, other = self.complex.sides[inside].T
+        inner, outer = self.complex.sides[inside].T
         flat = self._inward.reshape(-1, self.n)
-        out, into = -flat[one], flat[other]
-        here, there = (self.frames[flag // (self.n + 1)] for flag in (one, other))
+        out, into = -flat[inner], flat[outer]
+        here, there = (self.frames[flag // (self.n + 1)] for flag in (inner, outer))
         turn = there @ here.swapaxes(1, 2)
         turn -= (turn @ out[:, :, None]) @ out[:, None, :]
-        found[inside] = turn + into[:, :, None] @ out[:, None, :]
-        return found
+        rotation[inside] = turn + into[:, :, None] @ out[:, None, :]
+        return rotation
 
     def transport(self, path: Sequence[int]) -> Floats:
         """(n, n) parallel transport along a path of simplices, from the frame of its first to that of its last.
@@ -133,11 +133,11 @@ class PolyhedralManifold:
     @cached_property
     def _angles(self) -> Floats:
         """(C, n + 1, n + 1) dihedral angles for sorted corners: π less the angle between two ridges' conormals."""
-        one, other = self._inward[:, :, None, :], self._inward[:, None, :, :]
-        sum_, gap = ((side * side).sum(axis=3) for side in (one + other, one - other))
-        found = 2 * np.arctan2(np.sqrt(sum_), np.sqrt(gap))
-        found[:, np.arange(self.n + 1), np.arange(self.n + 1)] = np.nan
-        return np.asarray(found)
+        inward, across = self._inward[:, :, None, :], self._inward[:, None, :, :]
+        sum_, gap = ((side * side).sum(axis=3) for side in (inward + across, inward - across))
+        angles = 2 * np.arctan2(np.sqrt(sum_), np.sqrt(gap))
+        angles[:, np.arange(self.n + 1), np.arange(self.n + 1)] = np.nan
+        return np.asarray(angles)
 
     @property
     def dihedral(self) -> Floats:
@@ -170,7 +170,7 @@ class PolyhedralManifold:
         """
         size = self.n + 1
         turns, start = self.complex.rounds
-        found = np.full((len(self.hinges), self.n, self.n), np.nan)
+        holonomy = np.full((len(self.hinges), self.n, self.n), np.nan)
         inside = np.flatnonzero(~self.boundary)
         inside = inside[np.argsort(-self.valence[inside], kind="stable")]
         turn = np.tile(np.eye(self.n), (len(inside), 1, 1))
@@ -185,8 +185,8 @@ class PolyhedralManifold:
             back = self.complex.sides[ridge, 0] != flag
             forth[back] = forth[back].swapaxes(1, 2)
             turn[:active] = forth @ turn[:active]
-        found[inside] = turn
-        return found
+        holonomy[inside] = turn
+        return holonomy
 
     @cached_property
     def _planes(self) -> tuple[Floats, Floats]:

@@ -80,11 +80,11 @@ class Complex:
     @cached_property
     def across(self) -> Ints:
         """(C (n + 1),) the flag on the other side of each flag's ridge, -1 on the boundary."""
-        one, other = self.sides.T
+        flag, opposite = self.sides.T
         across = np.full(self.count * (self.n + 1), -1)
-        across[one] = other
-        inside = other >= 0
-        across[other[inside]] = one[inside]
+        across[flag] = opposite
+        inside = opposite >= 0
+        across[opposite[inside]] = flag[inside]
         return across
 
     # ------------------------------------------------------------------ hinges

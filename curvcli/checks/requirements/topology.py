@@ -84,10 +84,10 @@ def _inside_out(surface: Surface, apart: Surface) -> str:
     if not len(turned):
         return ""
     first = face_name(surface, solids.first_face[turned[0]])
-    found = located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
+    fault = located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
     if len(turned) > 1:
-        return f"{found}: {list_kinds(apart, turned)}"
-    return f"{found}: a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
+        return f"{fault}: {list_kinds(apart, turned)}"
+    return f"{fault}: a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
 
 
 def _crossing(surface: Surface, apart: Surface) -> str:
@@ -115,11 +115,11 @@ def connected(surface: Surface) -> str:
 )
 def genus(surface: Surface, wanted: float) -> str:
     """The genus, summed over the components, is N."""
-    found = float(classify(surface, surface.whole).genus[0])
-    if math.isnan(found):
+    total = float(classify(surface, surface.whole).genus[0])
+    if math.isnan(total):
         why = manifold(surface) or oriented(surface)
         return f"the genus is undefined, expected {wanted}: {why}"
-    return "" if found == wanted else f"the genus is {round(found)}, expected {wanted}"
+    return "" if total == wanted else f"the genus is {round(total)}, expected {wanted}"
 
 
 @requirement(
@@ -130,8 +130,8 @@ def genus(surface: Surface, wanted: float) -> str:
 def euler(surface: Surface, wanted: float) -> str:
     """The Euler characteristic V − E + F is N."""
     counts = count_groups(surface, surface.whole)
-    found = int(counts.euler_characteristic[0])
-    return "" if found == wanted else f"χ = {found}, expected {wanted}"
+    characteristic = int(counts.euler_characteristic[0])
+    return "" if characteristic == wanted else f"χ = {characteristic}, expected {wanted}"
 
 
 @requirement(
@@ -141,10 +141,10 @@ def euler(surface: Surface, wanted: float) -> str:
 )
 def components(surface: Surface, wanted: float) -> str:
     """There are N components."""
-    found = surface.components.count
-    if found == wanted:
+    count = surface.components.count
+    if count == wanted:
         return ""
-    if found == 1:
+    if count == 1:
         return f"1 component, expected {wanted}"
     second = face_name(surface, np.flatnonzero(surface.components.face == 1)[0])
-    return f"{found:,} components, expected {wanted} (the second starts at {second})"
+    return f"{count:,} components, expected {wanted} (the second starts at {second})"

@@ -11,9 +11,9 @@ from ...mesh.surface import Surface
 from ...support.words import counted
 
 
-def located(count: int, one: str, many: str, first: str) -> str:
+def located(count: int, singular: str, plural: str, first: str) -> str:
     """A fault with count and first place: `1 edge … (edge 2-7)` or `3 edges … (first: edge 2-7)`."""
-    return f"{counted(count, one, many)} ({first if count == 1 else f'first: {first}'})"
+    return f"{counted(count, singular, plural)} ({first if count == 1 else f'first: {first}'})"
 
 
 def edge_name(surface: Surface, edge: Any) -> str:
@@ -37,9 +37,9 @@ def faces(surface: Surface, where: NDArray[np.integer[Any]], what: str) -> str:
     return located(len(where), f"face {what}", f"faces {what}", face_name(surface, where[0])) if len(where) else ""
 
 
-def vertices(where: NDArray[np.integer[Any]], one: str, many: str) -> str:
+def vertices(where: NDArray[np.integer[Any]], singular: str, plural: str) -> str:
     """The fault of the given vertices; empty for none."""
-    return located(len(where), f"vertex {one}", f"vertices {many}", f"vertex {where[0]}") if len(where) else ""
+    return located(len(where), f"vertex {singular}", f"vertices {plural}", f"vertex {where[0]}") if len(where) else ""
 
 
 def with_explanation(problem: str, explanation: str) -> str:

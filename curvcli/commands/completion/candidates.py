@@ -28,8 +28,8 @@ class Names(click.ParamType[str]):
         if equals:
             return [CompletionItem(behind, type="file")] if self.files else []
         before, comma, last = incomplete.rpartition(",")
-        found = [CompletionItem(f"{before}{comma}{name}") for name in self.known() if name.startswith(last)]
-        return found or ([CompletionItem(incomplete, type="file")] if self.files else [])
+        items = [CompletionItem(f"{before}{comma}{name}") for name in self.known() if name.startswith(last)]
+        return items or ([CompletionItem(incomplete, type="file")] if self.files else [])
 
 
 def _passes() -> list[str]:
@@ -165,8 +165,8 @@ def _type(command: str, name: str, metavar: str) -> click.ParamType[str]:
     choices = metavar.rstrip(".").split("|")
     if choices[0] == "DIR":
         return click.Path(file_okay=False)
-    words = [word for word in choices if word.islower() and word.isalpha()]
+    choices_listed = [word for word in choices if word.islower() and word.isalpha()]
     files = choices[0] in _FILES
-    if words:
-        return Names(lambda: words, files)
+    if choices_listed:
+        return Names(lambda: choices_listed, files)
     return click.Path() if files else click.STRING

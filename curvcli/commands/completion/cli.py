@@ -29,10 +29,10 @@ def command() -> None:
 @_SHELL
 def install(name: str | None) -> int:
     """Write the script to the completion folder of the shell and, for bash and zsh, the lines that load it."""
-    one = shells.shell(name)
-    for path, changed in shells.install(one):
+    target = shells.shell(name)
+    for path, changed in shells.install(target):
         put(f"{'written' if changed else 'unchanged'}: {escape_text(str(path))}\n")
-    put(f"new {one.name} shells complete `curvcli`; to undo: `curvcli completion remove {one.name}`\n")
+    put(f"new {target.name} shells complete `curvcli`; to undo: `curvcli completion remove {target.name}`\n")
     return 0
 
 
@@ -40,9 +40,9 @@ def install(name: str | None) -> int:
 @_SHELL
 def remove(name: str | None) -> int:
     """Remove the script and the lines that load it."""
-    one = shells.shell(name)
-    for path, changed in shells.remove(one):
-        did = "nothing to remove" if not changed else "removed" if path == one.script else "block removed"
+    target = shells.shell(name)
+    for path, changed in shells.remove(target):
+        did = "nothing to remove" if not changed else "removed" if path == target.script else "block removed"
         put(f"{did}: {escape_text(str(path))}\n")
     return 0
 

@@ -98,10 +98,10 @@ class Bash(BashComplete):
 
     def get_completion_args(self) -> tuple[list[str], str]:
         """The words before the cursor, and the one at it."""
-        words, incomplete = super().get_completion_args()
-        if len(words) > 1 and words[-1] == "=" and words[-2].startswith("-"):
-            words.pop()
-        return words, incomplete
+        arguments, incomplete = super().get_completion_args()
+        if len(arguments) > 1 and arguments[-1] == "=" and arguments[-2].startswith("-"):
+            arguments.pop()
+        return arguments, incomplete
 
 
 class Zsh(ZshComplete):

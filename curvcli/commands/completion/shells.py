@@ -35,24 +35,24 @@ def shell(name: str | None) -> Shell:
 
     Errors: UsageError for one that is not known.
     """
-    found = name or os.path.basename(os.environ.get("SHELL", ""))
-    if found not in SHELLS:
+    shell_name = name or os.path.basename(os.environ.get("SHELL", ""))
+    if shell_name not in SHELLS:
         what = f"$SHELL is {os.environ.get('SHELL', '')!r}"
         raise UsageError(
             f"{what}: expected one of {', '.join(SHELLS)}; name the shell, as in `completion install bash`"
         )
     home = os.path.abspath(os.path.expanduser("~"))
     data = os.environ.get("XDG_DATA_HOME") or os.path.join(home, ".local", "share")
-    if found == "fish":
+    if shell_name == "fish":
         config = os.environ.get("XDG_CONFIG_HOME") or os.path.join(home, ".config")
-        return Shell(found, os.path.join(config, "fish", "completions", "curvcli.fish"))
-    script = os.path.join(data, "curvcli", f"completion.{found}")
+        return Shell(shell_name, os.path.join(config, "fish", "completions", "curvcli.fish"))
+    script = os.path.join(data, "curvcli", f"completion.{shell_name}")
     load = f"if [ -r {quote(script)} ]; then . {quote(script)}; fi"
-    if found == "bash":
-        return Shell(found, script, os.path.join(home, ".bashrc"), (load,))
+    if shell_name == "bash":
+        return Shell(shell_name, script, os.path.join(home, ".bashrc"), (load,))
     folder = os.environ.get("ZDOTDIR") or home
     ready = "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit; }"
-    return Shell(found, script, os.path.join(folder, ".zshrc"), (ready, load))
+    return Shell(shell_name, script, os.path.join(folder, ".zshrc"), (ready, load))
 
 
 def source(name: str) -> str:
@@ -65,34 +65,34 @@ def source(name: str) -> str:
     return made.source_template % made.source_vars()
 
 
-def install(one: Shell) -> list[tuple[str, bool]]:
+def install(target: Shell) -> list[tuple[str, bool]]:
     """Write the script and the block that loads it; return each file with whether it changed.
 
     Errors: OutputError for a file that cannot be read or written; it is then unchanged.
     """
-    files = [(one.script, source(one.name).encode())]
-    if one.start_up is not None:
-        files.append((one.start_up, _with_block(_read(one.start_up) or b"", one)))
+    files = [(target.script, source(target.name).encode())]
+    if target.start_up is not None:
+        files.append((target.start_up, _with_block(_read(target.start_up) or b"", target)))
     return [(path, _write(path, content)) for path, content in files]
 
 
-def remove(one: Shell) -> list[tuple[str, bool]]:
+def remove(target: Shell) -> list[tuple[str, bool]]:
     """Remove the files and lines of `install`; return each file with whether it changed."""
-    found = [(one.script, _delete(one.script))]
-    if one.start_up is not None:
-        before = _read(one.start_up)
-        found.append((one.start_up, before is not None and _write(one.start_up, _without_block(before, one))))
-    return found
+    files = [(target.script, _delete(target.script))]
+    if target.start_up is not None:
+        before = _read(target.start_up)
+        files.append((target.start_up, before is not None and _write(target.start_up, _without_block(before, target))))
+    return files
 
 
-def _with_block(content: bytes, one: Shell) -> bytes:
-    rest = _without_block(content, one)
-    if rest != content and content == rest + one.block.encode():
+def _with_block(content: bytes, target: Shell) -> bytes:
+    rest = _without_block(content, target)
+    if rest != content and content == rest + target.block.encode():
         return content
-    return rest + (b"" if not rest or rest.endswith(b"\n") else b"\n") + one.block.encode()
+    return rest + (b"" if not rest or rest.endswith(b"\n") else b"\n") + target.block.encode()
 
 
-def _without_block(content: bytes, one: Shell) -> bytes:
+def _without_block(content: bytes, target: Shell) -> bytes:
     """The file without our block.
 
     Errors: OutputError for a block without its last line, which stays.
@@ -103,7 +103,9 @@ def _without_block(content: bytes, one: Shell) -> bytes:
         return content
     stop = content.find(end, start)
     if stop < 0:
-        raise OutputError(f"{one.start_up}: the line `{_END}` is missing after `{_BEGIN}`; remove that block by hand")
+        raise OutputError(
+            f"{target.start_up}: the line `{_END}` is missing after `{_BEGIN}`; remove that block by hand"
+        )
     return content[:start] + content[stop + len(end) :]
 
 

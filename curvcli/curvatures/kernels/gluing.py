@@ -19,14 +19,14 @@ class Gluing:
     """Coherently wound faces and the pairing of their sides.
 
     tail: (3F,) vertex at the tail of each side; side 3 f + k runs from corner k to corner k + 1 of face f.
-    one, other: the two sides of every edge with n_e = 2, running opposite ways. single: all sides of the other edges.
+    half_edge, twin: both sides of each edge with n_e = 2, running opposite ways. single: sides of the other edges.
     twofold: (F,) mask of the faces of patches replaced by their orientable double cover, each original face twice;
     None without such patches.
     """
 
     tail: Index
-    one: Index
-    other: Index
+    half_edge: Index
+    twin: Index
     single: Index
     twofold: Mask | None
 
@@ -37,18 +37,18 @@ def glue(surface: Surface) -> Gluing:
     Intrinsic quantities lift to the cover and are counted twice there, so one-sided patches need no other rule.
     """
     edges, faces = surface.edges, surface.faces
-    one, other = edges.pairs
+    half_edge, twin = edges.pairs
     single = edges.half_edges(edges.unpaired)
     orientation = surface.orientation
     if orientation.face_sign is None and surface.orientable:
-        return Gluing(faces.flatten(), one, other, single, None)
+        return Gluing(faces.flatten(), half_edge, twin, single, None)
     n = len(faces)
     turned = np.zeros(n, bool) if orientation.face_sign is None else orientation.face_sign < 0
     covered = ~orientation.orientable[orientation.patch]
     copied = np.flatnonzero(covered)
     copy = np.arange(n)
     copy[copied] = n + np.arange(len(copied))
-    crossing = same_direction(faces, one, other)
+    crossing = same_direction(faces, half_edge, twin)
     turned = np.append(turned, np.ones(len(copied), bool))
     corners = np.concatenate([faces, faces[copied]])
     corners[turned] = corners[turned][:, [0, 2, 1]]
@@ -64,11 +64,11 @@ def glue(surface: Surface) -> Gluing:
         again = covered[half_edge // 3]
         return np.concatenate([sides(half_edge, upper), sides(half_edge[again], ~upper[again])])
 
-    below = np.zeros(len(one), bool)
+    below = np.zeros(len(half_edge), bool)
     return Gluing(
         corners.ravel(),
-        both(one, below),
-        both(other, crossing & covered[other // 3]),
+        both(half_edge, below),
+        both(twin, crossing & covered[twin // 3]),
         both(single, np.zeros(len(single), bool)),
         np.append(covered, np.ones(len(copied), bool)) if len(copied) else None,
     )

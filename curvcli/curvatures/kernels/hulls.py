@@ -39,9 +39,9 @@ def hull_cone_areas(directions: Floats) -> Floats:
     return np.maximum(area, 0.0)
 
 
-def _angles(one: Floats, other: Floats) -> Floats:
-    normal = cross(one, other)
-    angle: Floats = np.arctan2(np.sqrt(dot(normal, normal)), dot(one, other))
+def _angles(u: Floats, v: Floats) -> Floats:
+    normal = cross(u, v)
+    angle: Floats = np.arctan2(np.sqrt(dot(normal, normal)), dot(u, v))
     return angle
 
 
@@ -118,8 +118,8 @@ class _Hulls:
         if len(at):
             a, b = self.who[at, cone], self.who[self.following[at, cone], cone]
             first, second = (self.directions[:, end, cone] for end in (np.minimum(a, b), np.maximum(a, b)))
-            found = exact_sides(first, second, self.directions[:, k, cone])
-            side[at, cone] = np.where(a < b, found, -found)
+            signs = exact_sides(first, second, self.directions[:, k, cone])
+            side[at, cone] = np.where(a < b, signs, -signs)
         return here & (side < 0)
 
     def insert(self, k: int, row: int, seen: Mask) -> None:
@@ -171,9 +171,9 @@ def _extreme(directions: Floats) -> tuple[Positions, Positions, Positions]:
     return hulls.cones[cone], hulls.who[at, cone], hulls.who[hulls.following[at, cone], cone]
 
 
-def _first_turn(one: Floats, two: Floats, three: Floats) -> Mask:
+def _first_turn(first: Floats, second: Floats, third: Floats) -> Mask:
     """Test whether the first three directions are in counterclockwise order."""
-    side = sides(cross(one, two), three)
+    side = sides(cross(first, second), third)
     doubt = np.flatnonzero(side == 0)
-    side[doubt] = exact_sides(one[:, doubt], two[:, doubt], three[:, doubt])
+    side[doubt] = exact_sides(first[:, doubt], second[:, doubt], third[:, doubt])
     return side > 0

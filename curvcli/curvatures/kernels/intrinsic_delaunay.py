@@ -54,7 +54,7 @@ class IntrinsicTriangulation:
     def __init__(self, surface: Surface, most_flips: int | None = None) -> None:
         glued = glue(surface)
         self.xyz, self.n_vertices, self.tail, self.twofold = surface.xyz, surface.n_vertices, glued.tail, glued.twofold
-        pairs = len(glued.one)
+        pairs = len(glued.half_edge)
         n_faces, n_edges = len(self.tail) // 3, pairs + len(glued.single)
         self._cotangent, self._thin = self._plain_cotangents()
         self._lifted = np.zeros(n_faces, bool)
@@ -65,11 +65,11 @@ class IntrinsicTriangulation:
         self.side, self.mates, self.weight = np.empty(n_edges, np.int32), np.empty(n_edges, np.int32), np.empty(n_edges)
         self.edge = np.empty(len(self.tail), np.int32)
         for block in slices(pairs):
-            one, other = (np.ascontiguousarray(sides[block], np.intp) for sides in (glued.one, glued.other))
-            self.side[block], self.mates[block] = one, one + other
-            self.edge[one] = self.edge[other] = np.arange(block.start, block.stop, dtype=np.int32)
+            half_edge, twin = (np.ascontiguousarray(sides[block], np.intp) for sides in (glued.half_edge, glued.twin))
+            self.side[block], self.mates[block] = half_edge, half_edge + twin
+            self.edge[half_edge] = self.edge[twin] = np.arange(block.start, block.stop, dtype=np.int32)
             with np.errstate(over="ignore", invalid="ignore"):
-                self.weight[block] = self._cotangent.take(one) + self._cotangent.take(other)
+                self.weight[block] = self._cotangent.take(half_edge) + self._cotangent.take(twin)
         self.side[pairs:], self.mates[pairs:] = glued.single, -1
         self.edge[glued.single] = np.arange(pairs, n_edges, dtype=np.int32)
         self.weight[pairs:] = self._cotangent[glued.single]
@@ -126,13 +126,13 @@ class IntrinsicTriangulation:
             c, d = self._products.at(previous_corner(here)), self._products.at(previous_corner(there))
             c_area, d_area = self._twice_area.at(f), self._twice_area.at(g)
             with np.errstate(all="ignore"):
-                one, other = c.high / c_area.high, d.high / d_area.high
+                cotangent, opposite = c.high / c_area.high, d.high / d_area.high
                 weight = ((c * d_area + d * c_area) / (c_area * d_area)).high
                 flat = (c_area.high == 0) | (d_area.high == 0)
-                weight = np.where(flat, one + other, weight)
-                limit = _LIMIT + _SLACK * np.maximum(abs(one), abs(other)) ** 2
+                weight = np.where(flat, cotangent + opposite, weight)
+                limit = _LIMIT + _SLACK * np.maximum(abs(cotangent), abs(opposite)) ** 2
                 self.failing[edge] = free & (f != g) & ~self._lost(here) & (weight < -np.minimum(limit, 1e300))
-            self.weight[edge] = np.where(free, weight, one)
+            self.weight[edge] = np.where(free, weight, cotangent)
 
     def _lost(self, sides: Indices) -> Mask:
         """Mask of the sides of lifted faces across which no flip can be computed."""

@@ -123,18 +123,18 @@ def _solve(lower: Floats, terms: Floats, expected: Floats) -> Floats:
     return result
 
 
-def _quartic(found: Floats) -> Floats:
+def _quartic(coefficients: Floats) -> Floats:
     """(5, m) the terms of degree 4 that follow from those of degree 2 for constant curvature.
 
     With S the Hessian they are (xᵀ S x)(xᵀ S² x)/8: exact on spheres and cylinders.
     """
-    a, b, c = 2 * found[3], found[4], 2 * found[5]
+    a, b, c = 2 * coefficients[3], coefficients[4], 2 * coefficients[5]
     first = (a / 2, b, c / 2)
     second = (a * a + b * b, 2 * b * (a + c), b * b + c * c)
     terms = np.zeros((_COUNT - _CUBIC, len(a)))
-    for i, one in enumerate(first):
-        for j, other in enumerate(second):
-            terms[i + j] += one * other / 4
+    for i, p in enumerate(first):
+        for j, q in enumerate(second):
+            terms[i + j] += p * q / 4
     return terms
 
 

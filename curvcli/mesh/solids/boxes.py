@@ -46,13 +46,13 @@ class BoxTree:
         first = self._first[0]
         return first[group], first[group + 1] - first[group]
 
-    def meeting(self, one: Ints, other: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
+    def meeting(self, first: Ints, second: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
         """Yield pairs of items of two groups whose boxes meet: number of the pair of groups, item and item.
 
-        one, other: (n,) groups of each pair. For a group with itself each pair comes once, and no item with itself.
+        first, second: (n,) groups of each pair. For a group with itself each pair comes once, and no item with itself.
         """
-        same = one == other
-        stack = [(len(self._first) - 1, np.arange(len(one)), one, other)]
+        same = first == second
+        stack = [(len(self._first) - 1, np.arange(len(first)), first, second)]
         while stack:
             level, pair, a, b = stack.pop()
             if len(pair) > _AT_ONCE:
@@ -61,9 +61,9 @@ class BoxTree:
             kept = self._overlap(level, a, b) & ~(same[pair] & (a > b))
             pair, a, b = pair[kept], a[kept], b[kept]
             if level:
-                where, a = self._below(level, one[pair], a)
+                where, a = self._below(level, first[pair], a)
                 pair, b = pair[where], b[where]
-                where, b = self._below(level, other[pair], b)
+                where, b = self._below(level, second[pair], b)
                 stack.append((level - 1, pair[where], a[where], b))
             elif len(pair):
                 distinct = a != b

@@ -19,27 +19,27 @@ _INWARDS = (0.0, 1 / 64, 1 / 4)
 class Contacts(NamedTuple):
     """Pairs of faces of two surfaces that touch within rounding, and pairs of surfaces that cross.
 
-    pair: (n,) number of the pair of surfaces. one, other: (n,) faces. crossing: pairs of surfaces of which two faces
+    pair: (n,) number of the pair of surfaces. first, second: (n,) faces. crossing: pairs of surfaces of which two faces
     meet along a segment within both, beyond rounding.
     """
 
     pair: Ints
-    one: Ints
-    other: Ints
+    first: Ints
+    second: Ints
     crossing: Ints
 
 
-def find_contacts(sides: Sides, one: Ints, other: Ints) -> Contacts:
-    """The contacts of pairs of surfaces. one, other: (n,) the surfaces of each pair."""
-    crossing = np.zeros(len(one), bool)
-    found = [np.zeros((3, 0), np.int64)]
-    for pair, f, g in sides.tree.meeting(one, other):
+def find_contacts(sides: Sides, first: Ints, second: Ints) -> Contacts:
+    """The contacts of pairs of surfaces. first, second: (n,) the surfaces of each pair."""
+    crossing = np.zeros(len(first), bool)
+    touches = [np.zeros((3, 0), np.int64)]
+    for pair, f, g in sides.tree.meeting(first, second):
         open_ = ~crossing[pair]
         pair, f, g = pair[open_], f[open_], g[open_]
         touching, through = _test(sides, f, g)
         crossing[pair[through]] = True
-        found.append(np.stack([pair, f, g])[:, touching])
-    pair, f, g = np.concatenate(found, axis=1)
+        touches.append(np.stack([pair, f, g])[:, touching])
+    pair, f, g = np.concatenate(touches, axis=1)
     open_ = ~crossing[pair]
     return Contacts(pair[open_], f[open_], g[open_], np.flatnonzero(crossing))
 
@@ -155,19 +155,19 @@ def samples(sides: Sides, contacts: Contacts, most: int) -> Samples:
     count = np.bincount(contacts.pair)
     rank = np.arange(len(order)) - (np.cumsum(count) - count)[contacts.pair[order]]
     chosen = order[rank % -(-count // most)[contacts.pair[order]] == 0]
-    pair, f, g = contacts.pair[chosen], contacts.one[chosen], contacts.other[chosen]
+    pair, f, g = contacts.pair[chosen], contacts.first[chosen], contacts.second[chosen]
     corners = sides.corners(f), sides.corners(g)
-    found = []
+    pieces = []
     for first, face, ends, cutter in ((True, f, *corners), (False, g, corners[1], corners[0])):
         unique = np.unique(_keys(sides, pair, face), return_index=True)[1]
-        found.append((ends[..., unique].mean(axis=0), pair[unique], np.full(len(unique), first)))
+        pieces.append((ends[..., unique].mean(axis=0), pair[unique], np.full(len(unique), first)))
         for a, b in _EDGES:
             part, row = _pieces(_cuts(ends[a], ends[b], cutter), _keys(sides, pair, face))
             p, q, opposite = ends[a][:, row], ends[b][:, row], ends[3 - a - b][:, row]
             for inwards in _INWARDS:
                 points = (1 - inwards) * (p + part * (q - p)) + inwards * opposite
-                found.append((points, pair[row], np.full(len(row), first)))
-    points, pairs, firsts = zip(*found, strict=True)
+                pieces.append((points, pair[row], np.full(len(row), first)))
+    points, pairs, firsts = zip(*pieces, strict=True)
     return Samples(np.concatenate(points, axis=1), np.concatenate(pairs), np.concatenate(firsts))
 
 

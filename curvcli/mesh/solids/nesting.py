@@ -55,8 +55,8 @@ def nest(xyz: Floats, faces: NDArray[np.integer[Any]], surface: NDArray[np.integ
     pairs = pairs[:, _deep(low, high, *pairs)]
     if not pairs.size:
         return Nesting(np.zeros(n, np.int64), np.zeros((0, 2), np.int64))
-    one, other = pairs[:, np.lexsort(pairs[::-1])]
-    used, number = np.unique([one, other], return_inverse=True)
+    first, second = pairs[:, np.lexsort(pairs[::-1])]
+    used, number = np.unique([first, second], return_inverse=True)
     place = np.full(n + 1, -1, np.int64)  # the last entry is for faces of no surface
     place[used] = np.arange(len(used))
     chosen = np.flatnonzero(place[surface] >= 0)
@@ -82,12 +82,12 @@ def _boxes(
     return low, high
 
 
-def _deep(low: Floats, high: Floats, one: Ints, other: Ints) -> Mask:
+def _deep(low: Floats, high: Floats, first: Ints, second: Ints) -> Mask:
     """(n,) flags: the boxes overlap by more than a common wall, beyond rounding; others hold bodies side by side."""
     reach = ROUNDING * np.maximum(np.abs(low), np.abs(high))
-    rounding = np.maximum(reach[:, one], reach[:, other])
-    depth = np.minimum(high[:, one], high[:, other]) - np.maximum(low[:, one], low[:, other])
-    thickness = np.minimum((high - low)[:, one], (high - low)[:, other])
+    rounding = np.maximum(reach[:, first], reach[:, second])
+    depth = np.minimum(high[:, first], high[:, second]) - np.maximum(low[:, first], low[:, second])
+    thickness = np.minimum((high - low)[:, first], (high - low)[:, second])
     deep: Mask = np.all((depth > rounding) | (thickness <= rounding), axis=0)
     return deep
 
@@ -101,20 +101,20 @@ class _Search:
 
     def __init__(self, sides: Sides, pairs: Ints, low: Floats, high: Floats) -> None:
         self.sides, self.pairs = sides, pairs
-        one, other = pairs
-        contacts = find_contacts(sides, one, other)
-        self.crossing = np.zeros(len(one), bool)
+        first, second = pairs
+        contacts = find_contacts(sides, first, second)
+        self.crossing = np.zeros(len(first), bool)
         self.crossing[contacts.crossing] = True
-        self.inside, self.outside = np.zeros((2, len(one)), bool), np.zeros((2, len(one)), bool)
-        self.inner = np.ones((2, len(one)), bool)
+        self.inside, self.outside = np.zeros((2, len(first)), bool), np.zeros((2, len(first)), bool)
+        self.inner = np.ones((2, len(first)), bool)
         rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
-        for way, (a, b) in enumerate(((one, other), (other, one))):
+        for way, (a, b) in enumerate(((first, second), (second, first))):
             slack = np.maximum(rounding[:, a], rounding[:, b])
             self.inner[way] = ((low[:, a] >= low[:, b] - slack) & (high[:, a] <= high[:, b] + slack)).all(axis=0)
         self.outside |= ~self.inner  # its box reaches beyond the other's
         if len(contacts.pair):
-            found = samples(sides, contacts, _CONTACTS)
-            self._look(found.points, found.pair, np.where(found.first, 0, 1))
+            touching = samples(sides, contacts, _CONTACTS)
+            self._look(touching.points, touching.pair, np.where(touching.first, 0, 1))
         for tried in _TRIED:
             self._try(tried)
         self.crossing |= (self.inside & self.outside).any(axis=0)
@@ -123,9 +123,9 @@ class _Search:
         """Record the sides of points of surfaces about the other surface of their pair."""
         for block in slices(len(pair)):
             side = self.sides.of(points[:, block], self.pairs[1 - way[block], pair[block]])
-            for found, wanted in ((self.inside, INSIDE), (self.outside, OUTSIDE)):
+            for flags, wanted in ((self.inside, INSIDE), (self.outside, OUTSIDE)):
                 of = side == wanted
-                found[way[block][of], pair[block][of]] = True
+                flags[way[block][of], pair[block][of]] = True
 
     def _try(self, most: int) -> None:
         """Test up to `most` points of each surface whose side is still unknown."""
@@ -144,7 +144,7 @@ class _Search:
 
     def nesting(self, sign: Ints) -> Nesting:
         """Compute depths and crossing pairs. sign: of the volumes."""
-        (one, other), n = self.pairs, len(sign)
+        (first, second), n = self.pairs, len(sign)
         unknown = (~(self.inside | self.outside)).all(axis=0) & ~self.crossing
         depth = np.zeros(n, np.int64)
         for way in (0, 1):
@@ -152,8 +152,8 @@ class _Search:
             np.add.at(depth, self.pairs[way][within], 1)
         # A core that fills its cavity: of two coincident surfaces of opposite signs the cavity contains the core.
         twins = np.flatnonzero(unknown)
-        filled = (depth[one[twins]] % 2 == 1) & (sign[one[twins]] * sign[other[twins]] < 0)
-        core = np.where(sign[one] > 0, one, other)[twins[filled]]
+        filled = (depth[first[twins]] % 2 == 1) & (sign[first[twins]] * sign[second[twins]] < 0)
+        core = np.where(sign[first] > 0, first, second)[twins[filled]]
         np.add.at(depth, core, 1)
         crossing = self.crossing.copy()
         crossing[twins[~filled]] = True

@@ -61,13 +61,13 @@ def list_kinds(surface: Surface, patches: NDArray[np.intp]) -> str:
     """Number of bodies and of cavities among these patches, in words."""
     cavities = int((surface.solids.depth[patches] % 2).sum())
     bodies = len(patches) - cavities
-    parts = [(bodies, "body", "bodies"), (cavities, "cavity", "cavities")]
-    return " and ".join(counted(*part) for part in parts if part[0])
+    counts = [(bodies, "body", "bodies"), (cavities, "cavity", "cavities")]
+    return " and ".join(counted(*part) for part in counts if part[0])
 
 
 def first_pair(surface: Surface) -> str:
     """The first pair of crossing patches, by their lowest faces, in words."""
     if not len(surface.solids.crossing):
         return ""
-    one, other = surface.solids.first_face[surface.solids.crossing[0]]
-    return f"faces {one} and {other}" if len(surface.solids.crossing) == 1 else f"first: faces {one} and {other}"
+    first, second = surface.solids.first_face[surface.solids.crossing[0]]
+    return f"faces {first} and {second}" if len(surface.solids.crossing) == 1 else f"first: faces {first} and {second}"

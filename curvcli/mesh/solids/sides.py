@@ -134,9 +134,9 @@ class Sides:
         open_ = (through & (up == 0)) | ~(through | ((least < 0) & (most > 0)))
         for k in np.flatnonzero(open_)[:_FEW]:
             corners = [[float(x[corner[face[k]]]) for x in self.xyz] for corner in self.faces]
-            found = _exactly_crossed(points[:, k].tolist(), corners)
-            if found is not None:
-                crossing[k], open_[k] = found, False
+            sign = _exactly_crossed(points[:, k].tolist(), corners)
+            if sign is not None:
+                crossing[k], open_[k] = sign, False
         return crossing, open_
 
 

@@ -10,12 +10,12 @@ if TYPE_CHECKING:
     from ...errors import Notice
 
 
-def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+def write(stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write the triangles and their colours."""
     from ..meshes.glb import write_glb
 
-    triangles = parts.get("triangles")
-    return write_glb(stream, points, faces if triangles is None else triangles, parts.get("vertex_colors"))
+    triangles = attributes.get("triangles")
+    return write_glb(stream, points, faces if triangles is None else triangles, attributes.get("vertex_colors"))
 
 
 register(

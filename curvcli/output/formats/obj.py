@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from ...errors import Notice
 
 
-def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+def write(stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write the mesh, its colours and comments."""
     from ..meshes.obj import write_obj
 
-    write_obj(stream, points, faces, **parts)
+    write_obj(stream, points, faces, **attributes)
     return ()
 
 

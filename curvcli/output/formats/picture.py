@@ -32,7 +32,7 @@ def write_as(suffix: str, stream: BinaryIO, analysis: Result, appearance: Appear
 
     columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
     write_picture(stream, analysis, columns, appearance.picture, appearance.value_range, suffix)
-    return [sentence(one, appearance.value_range, analysis.conventions.unit) for one in columns]
+    return [sentence(column, appearance.value_range, analysis.conventions.unit) for column in columns]
 
 
 for place, suffix in enumerate((".png", ".pdf", ".svg")):

@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from ...errors import Notice
 
 
-def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+def write(stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write everything."""
     from ..meshes.ply import write_ply
 
-    return write_ply(stream, points, faces, **parts)
+    return write_ply(stream, points, faces, **attributes)
 
 
 register(

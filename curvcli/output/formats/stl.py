@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from ...errors import Notice
 
 
-def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+def write(stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write the triangles alone."""
     from ..meshes.stl import write_stl
 

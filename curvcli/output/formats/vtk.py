@@ -18,11 +18,11 @@ def require() -> None:
     require_vtk()
 
 
-def write_to(suffix: str, stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+def write_to(suffix: str, stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write everything."""
     from ..meshes.vtk import write_vtk
 
-    return write_vtk(stream, suffix, points, faces, **parts)
+    return write_vtk(stream, suffix, points, faces, **attributes)
 
 
 for place, (suffix, kind) in enumerate(((".vtp", "polygons"), (".vtu", "unstructured grid")), 3):

@@ -40,29 +40,29 @@ def bend(analysis: Result, appearance: Appearance, asked: tuple[str, ...], displ
     name = next((name for name in asked if name in names), None)
     if name is None:
         return None
-    one = colored(analysis, name, appearance)
-    low, high = one.scale.low, one.scale.high
+    column = colored(analysis, name, appearance)
+    low, high = column.scale.low, column.scale.high
     edges, place = analysis.surface.edges, np.full(analysis.surface.n_vertices, -1, np.int32)
     place[display.vertices] = np.arange(len(display.vertices), dtype=np.int32)
     ends = np.stack([place[edges.a], place[edges.b]], axis=1)
-    values = one.scale.settled(analysis.edges[name].astype(np.float64))
+    values = column.scale.settled(analysis.edges[name].astype(np.float64))
     shown = (ends >= 0).all(axis=1) & np.isfinite(values) & (values != 0)
     shades: list[tuple[tuple[int, int, int], int]] = []
     order = np.empty(0, np.intp)
     if low is not None and high is not None and high > low:
         share = np.clip((values / 2 - low / 2) / (high / 2 - low / 2), 0, 1)
         shade = np.rint(np.nan_to_num(share) * (_SHADES - 1)).astype(np.intp)
-        if one.scale.signed:
+        if column.scale.signed:
             shown &= shade != _SHADES // 2
         chosen = np.flatnonzero(shown)
         order = chosen[np.argsort(shade[chosen], kind="stable")]
         for number, count in enumerate(np.bincount(shade[chosen], minlength=_SHADES).tolist()):
-            red, green, blue = one.scale.gradient[
-                round(number / (_SHADES - 1) * (len(one.scale.gradient) - 1))
+            red, green, blue = column.scale.gradient[
+                round(number / (_SHADES - 1) * (len(column.scale.gradient) - 1))
             ].tolist()
             if count:
                 shades.append(((red, green, blue), count))
-    return Bend(one, one.unit(analysis.conventions.unit), ends[order].astype(np.int32), shades)
+    return Bend(column, column.unit(analysis.conventions.unit), ends[order].astype(np.int32), shades)
 
 
 def in_cells(analysis: Result, display: Display) -> bool:
@@ -71,6 +71,6 @@ def in_cells(analysis: Result, display: Display) -> bool:
     return few and any(notice.code == "creased" for notice in analysis.notices)
 
 
-def cell(one: Colored) -> bool:
+def cell(column: Colored) -> bool:
     """True if a column is a density of stars that has colours."""
-    return one.quantity.name in STARS and one.scale.low is not None
+    return column.quantity.name in STARS and column.scale.low is not None

@@ -66,17 +66,17 @@ def columns(analysis: Result, appearance: Appearance, asked: tuple[str, ...]) ->
     asked: the columns that `--range LO:HI` applies to; a percentage applies to all.
     """
     referenced = analysis.surface.referenced
-    plain = replace(appearance, value_range=None)
+    own_range = replace(appearance, value_range=None)
     shared = appearance.value_range is not None and ":" not in appearance.value_range
-    found = []
+    page_columns = []
     for name, given in vertex_table(analysis).items():
         if name in _PLAIN or isinstance(given, Labels):
             continue
         values = np.where(referenced & ~np.ma.getmaskarray(given), np.ma.getdata(given), np.nan).astype(np.float64)
-        painted = colored(analysis, name, appearance if shared or name in asked else plain)
+        painted = colored(analysis, name, appearance if shared or name in asked else own_range)
         bars, most = histogram(painted.scale.settled(values)[referenced], painted.scale)
-        found.append(PageColumn(painted, painted.unit(analysis.conventions.unit), values, bars, most))
-    return found
+        page_columns.append(PageColumn(painted, painted.unit(analysis.conventions.unit), values, bars, most))
+    return page_columns
 
 
 def histogram(values: NDArray[np.float64], scale: ColorScale) -> tuple[list[Bar], int]:

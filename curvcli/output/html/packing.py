@@ -26,7 +26,7 @@ class Scaled(NamedTuple):
     exponent: int
 
     @property
-    def parts(self) -> NDArray[np.float32]:
+    def columns(self) -> NDArray[np.float32]:
         """(n,) or (n, 2) values, with the rest if there is one."""
         return self.values if self.rest is None else np.stack([self.values, self.rest], axis=1)
 
@@ -39,10 +39,10 @@ def scaled(numbers: NDArray[np.float64]) -> Scaled:
     low, high = float(known.min()), float(known.max())
     size = max(abs(low), abs(high))
     exponent = 0 if size == 0 or _SMALLEST < size < _LARGEST else int(np.frexp(size)[1]) - 1
-    plain = np.ldexp(numbers, -exponent) if exponent else numbers
-    values = plain.astype(np.float32)
+    mantissas = np.ldexp(numbers, -exponent) if exponent else numbers
+    values = mantissas.astype(np.float32)
     narrow = 0 < high / 2 - low / 2 < size / (2 * _NARROW)
-    return Scaled(values, (plain - values).astype(np.float32) if narrow else None, exponent)
+    return Scaled(values, (mantissas - values).astype(np.float32) if narrow else None, exponent)
 
 
 def packed(array: NDArray[Any]) -> str:

@@ -152,10 +152,10 @@ def _coded(text: str) -> Any:
     """Text with the parts between backticks as code."""
     from markupsafe import Markup
 
-    parts = escape_text(text).split("`")
-    if len(parts) % 2 == 0:
+    segments = escape_text(text).split("`")
+    if len(segments) % 2 == 0:
         return text
-    return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(parts))
+    return Markup("").join(Markup("<code>{}</code>").format(part) if k % 2 else part for k, part in enumerate(segments))
 
 
 def _fitted(analysis: Result, shown: list[PageColumn]) -> tuple[Display, dict[str, Any]]:
@@ -184,7 +184,7 @@ def _blocks(analysis: Result, display: Display, shown: list[PageColumn]) -> dict
     rests = [axis.rest for axis in axes if axis.rest is not None]
     if rests:
         rests = [np.zeros_like(axis.values) if axis.rest is None else axis.rest for axis in axes]
-    found: dict[str, Any] = {
+    blocks: dict[str, Any] = {
         "positions": packed(np.stack([*(axis.values for axis in axes), *rests], axis=1)),
         "vertices": packed(differences(vertices)),
         "faces": packed(steps(display.faces)),
@@ -194,14 +194,14 @@ def _blocks(analysis: Result, display: Display, shown: list[PageColumn]) -> dict
     }
     if "status" in analysis.vertices:
         codes = analysis.columns["status"][vertices].astype(np.uint8)
-        found["status"] = packed(codes)
+        blocks["status"] = packed(codes)
     for index, column in enumerate(shown):
         numbers = scaled(column.values[vertices])
         meta["columns"][column.name] = {"exponent": numbers.exponent}
-        found[f"column-{index}"] = packed(numbers.parts)
+        blocks[f"column-{index}"] = packed(numbers.columns)
         if column.scale.rounded is not None:
-            found[f"rounded-{index}"] = packed(column.scale.rounded[vertices].astype(np.uint8))
-    return {**found, "meta": meta}
+            blocks[f"rounded-{index}"] = packed(column.scale.rounded[vertices].astype(np.uint8))
+    return {**blocks, "meta": meta}
 
 
 def _normals(analysis: Result, display: Display) -> Any:

@@ -29,11 +29,13 @@ def fitting(names: Iterable[str], fit: Callable[[str], str], taken: Collection[s
 def respelt(*written: dict[str, str]) -> tuple[Notice, ...]:
     """Notice of names that a format spells in another way; empty if there are none."""
     pairs = (pair for each in written for pair in each.items())
-    changed = dict.fromkeys(f"{escape_text(name)} -> {escape_text(one)}" for name, one in pairs if name != one)
+    changed = dict.fromkeys(
+        f"{escape_text(name)} -> {escape_text(spelling)}" for name, spelling in pairs if name != spelling
+    )
     if not changed:
         return ()
-    words = pluralize(len(changed), "[name|names] of properties that the output spells in another way: ")
-    message = words + ", ".join(changed)
+    opening = pluralize(len(changed), "[name|names] of properties that the output spells in another way: ")
+    message = opening + ", ".join(changed)
     return (Notice("renamed_properties", len(changed), message, "the values are kept under the new names"),)
 
 

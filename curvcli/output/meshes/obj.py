@@ -18,14 +18,14 @@ _SHARES = np.round(np.arange(256) / 255, 4)
 
 
 def write_obj(
-    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[MeshAttributes]
+    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **attributes: Unpack[MeshAttributes]
 ) -> None:
     """Write `v x y z` or `v x y z r g b` with colours from 0 to 1, then `f` records counted from 1.
 
     points (V, 3), faces (F, 3). Of the parts, polygons, colours and comments: OBJ has no other properties.
     """
-    colors, polygons = parts.get("vertex_colors"), parts.get("polygons")
-    for comment in parts.get("comments", ()):
+    colors, polygons = attributes.get("vertex_colors"), attributes.get("polygons")
+    for comment in attributes.get("comments", ()):
         stream.write(f"# {escape_text(' '.join(comment.split()))}\n".encode())
     for rows in slices(len(points), ROWS_AT_A_TIME):
         columns: dict[str, pl.Series | str] = {axis: numbers(points[rows, k]) for k, axis in enumerate("xyz")}

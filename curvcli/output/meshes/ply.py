@@ -31,7 +31,7 @@ _SCALARS = {
 
 
 def write_ply(
-    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **parts: Unpack[MeshAttributes]
+    stream: BinaryIO, points: NDArray[np.float64], faces: NDArray[np.integer[Any]], **attributes: Unpack[MeshAttributes]
 ) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) as binary little-endian PLY with `double` positions, in bounded memory.
 
@@ -40,16 +40,16 @@ def write_ply(
     spelt in another way, and the notice of that is returned.
     """
     vertices: dict[str, NDArray[Any]] = {axis: points[:, k] for k, axis in enumerate("xyz")}
-    if (colors := parts.get("vertex_colors")) is not None:
+    if (colors := attributes.get("vertex_colors")) is not None:
         vertices |= {name: colors[:, k] for k, name in enumerate(("red", "green", "blue"))}
-    comments = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
-    of_vertices, of_faces = parts.get("vertex_properties") or {}, parts.get("face_properties") or {}
+    comments = [escape_text(" ".join(comment.split())) for comment in attributes.get("comments", ())]
+    of_vertices, of_faces = attributes.get("vertex_properties") or {}, attributes.get("face_properties") or {}
     if clash := vertices.keys() & of_vertices.keys():
         raise ValueError(f"two vertex properties named {', '.join(sorted(clash))}")
-    words = fitting(of_vertices, one_word, vertices), fitting(of_faces, one_word, (_CORNERS,))
-    vertices |= _scalars(of_vertices, words[0], comments)
-    per_face = _scalars(of_faces, words[1], comments)
-    corners, sizes = parts.get("polygons") or (faces.reshape(-1), None)
+    spellings = fitting(of_vertices, one_word, vertices), fitting(of_faces, one_word, (_CORNERS,))
+    vertices |= _scalars(of_vertices, spellings[0], comments)
+    per_face = _scalars(of_faces, spellings[1], comments)
+    corners, sizes = attributes.get("polygons") or (faces.reshape(-1), None)
     if sizes is not None and len(sizes) and sizes.min() == sizes.max() > 0:
         corners, sizes = corners.reshape(-1, int(sizes[0])), None
     elif sizes is None:
@@ -70,7 +70,7 @@ def write_ply(
     blocks = _even(corners, count, per_face) if sizes is None else _mixed(corners, sizes, count, per_face)
     for rows in blocks:
         stream.write(rows.data)
-    return respelt(*words)
+    return respelt(*spellings)
 
 
 def _ascii(line: str) -> str:
@@ -138,9 +138,11 @@ def _mixed(
         start = stop
 
 
-def _scalars(columns: Mapping[str, Column], words: Mapping[str, str], comments: list[str]) -> dict[str, NDArray[Any]]:
+def _scalars(
+    columns: Mapping[str, Column], spelling: Mapping[str, str], comments: list[str]
+) -> dict[str, NDArray[Any]]:
     """Columns in the scalar types of PLY, little-endian; the meaning of label codes is added to the comments."""
-    return {words[name]: _scalar(words[name], column, comments) for name, column in columns.items()}
+    return {spelling[name]: _scalar(spelling[name], column, comments) for name, column in columns.items()}
 
 
 def _scalar(name: str, column: Column, comments: list[str]) -> NDArray[Any]:

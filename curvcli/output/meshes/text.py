@@ -37,8 +37,8 @@ def lines(columns: Mapping[str, pl.Series | str], end: str = "\n") -> bytes:
 
 def joined(columns: Mapping[str, pl.Series | str], separator: str, end: str) -> bytes:
     """Same text without the threads of polars: columns of words and numbers side by side."""
-    words = [repeat(c) if isinstance(c, str) else _words(c) for c in columns.values()]
-    return "".join([separator.join(row) + end for row in zip(*words, strict=False)]).encode()
+    cells = [repeat(c) if isinstance(c, str) else _words(c) for c in columns.values()]
+    return "".join([separator.join(row) + end for row in zip(*cells, strict=False)]).encode()
 
 
 def _words(column: pl.Series) -> list[str]:

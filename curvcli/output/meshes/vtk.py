@@ -26,7 +26,7 @@ def write_vtk(
     suffix: str,
     points: NDArray[np.float64],
     faces: NDArray[np.integer[Any]],
-    **parts: Unpack[MeshAttributes],
+    **attributes: Unpack[MeshAttributes],
 ) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) as `.vtp` (polygons) or `.vtu` (unstructured grid), positions in float64.
 
@@ -36,7 +36,7 @@ def write_vtk(
     is invalid in XML or taken is spelt in another way, and the notice of that is returned.
     Errors: InputError for too many properties: VTK's time grows with their square.
     """
-    count = len(parts.get("vertex_properties") or ()) + len(parts.get("face_properties") or ())
+    count = len(attributes.get("vertex_properties") or ()) + len(attributes.get("face_properties") or ())
     if count > _MOST:
         raise InputError(
             f"{count:,} properties are too many for {suffix}, at most {_MOST:,} expected",
@@ -45,21 +45,21 @@ def write_vtk(
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
-    data, arrays = _mesh(suffix, faces, parts.get("polygons"))
-    comments = [escape_text(" ".join(comment.split())) for comment in parts.get("comments", ())]
+    data, arrays = _mesh(suffix, faces, attributes.get("polygons"))
+    comments = [escape_text(" ".join(comment.split())) for comment in attributes.get("comments", ())]
     at = vtkPoints()
     at.SetData(_array(points, arrays))
     data.SetPoints(at)
-    colors, active = parts.get("vertex_colors"), parts.get("active")
+    colors, active = attributes.get("vertex_colors"), attributes.get("active")
     own = (_COLORS,) if colors is not None else ()
-    words: list[dict[str, str]] = []
+    spellings: list[dict[str, str]] = []
     for key, target, taken in (
         ("vertex_properties", data.GetPointData(), own),
         ("face_properties", data.GetCellData(), ()),
     ):
-        given: Mapping[str, Column] = parts.get(key) or {}  # type: ignore[assignment]
-        words.append(fitting(given, xml_name, taken))
-        properties = {words[-1][name]: column for name, column in given.items()}
+        given: Mapping[str, Column] = attributes.get(key) or {}  # type: ignore[assignment]
+        spellings.append(fitting(given, xml_name, taken))
+        properties = {spellings[-1][name]: column for name, column in given.items()}
         for name, column in properties.items():
             _add(target, name, _values(name, column, comments), arrays)
         for stem in _vectors(properties, taken):
@@ -68,7 +68,7 @@ def write_vtk(
     if colors is not None:
         _add(data.GetPointData(), _COLORS, colors, arrays)
     if active is not None:
-        data.GetPointData().SetActiveScalars(xml_attribute(words[0].get(active, active)))
+        data.GetPointData().SetActiveScalars(xml_attribute(spellings[0].get(active, active)))
     writer = vtkXMLPolyDataWriter() if suffix == ".vtp" else vtkXMLUnstructuredGridWriter()
     writer.SetInputData(data)
     writer.SetWriteToOutputString(True)
@@ -86,7 +86,7 @@ def write_vtk(
     stream.write(content[:start])
     stream.write(_comment(comments))
     stream.write(content[start:])
-    return respelt(*words)
+    return respelt(*spellings)
 
 
 def _mesh(suffix: str, faces: NDArray[np.integer[Any]], polygons: Polygons | None) -> tuple[Any, list[Any]]:

@@ -24,7 +24,7 @@ def write_mesh(
     suffix: str,
     points: NDArray[np.float64],
     faces: NDArray[np.integer[Any]],
-    **parts: Unpack[MeshAttributes],
+    **attributes: Unpack[MeshAttributes],
 ) -> tuple[Notice, ...]:
     """Write points (V, 3) and faces (F, 3) in the format of the suffix, with those parts that the format has.
 
@@ -33,7 +33,7 @@ def write_mesh(
     format = output_formats().get(suffix)
     if not isinstance(format, MeshFormat):
         raise ValueError(f"{suffix}: no mesh is written with this suffix")
-    return format.write(stream, points, faces, **parts)
+    return format.write(stream, points, faces, **attributes)
 
 
 def beside_input(

@@ -120,12 +120,12 @@ def categorize(codes: NDArray[np.integer[Any]], names: tuple[str, ...]) -> Color
     gradient = _gradient(CATEGORICAL, CATEGORIES)
     undefined = _undefined(gradient)
     colors = np.concatenate([np.resize(gradient, (len(names), 3)), [undefined]]).astype(np.uint8)
-    found = np.where(codes < 0, len(names), codes)
-    counts = np.bincount(found, minlength=len(colors)).tolist()
+    indices = np.where(codes < 0, len(names), codes)
+    counts = np.bincount(indices, minlength=len(colors)).tolist()
     listed = zip(names, colors.tolist(), counts, strict=False)
     categories = tuple(Category(name, (rgb[0], rgb[1], rgb[2]), count) for name, rgb, count in listed if count)
     return ColorScale(
-        np.take(colors, found, axis=0),
+        np.take(colors, indices, axis=0),
         None,
         None,
         CATEGORICAL,
@@ -214,14 +214,14 @@ def _gradient(name: str, steps: int = _STEPS) -> NDArray[np.uint8]:
     """Colours of a map by its name in the `cmap` catalogue; a trailing `_r` reverses it."""
     from cmap import Catalog, Colormap
 
-    catalog, plain = Catalog(), name.strip()
-    forward = plain[:-2] if plain.lower().endswith("_r") else plain
+    catalog, stripped = Catalog(), name.strip()
+    forward = stripped[:-2] if stripped.lower().endswith("_r") else stripped
     try:
         # The full name: for a short one that two collections share, cmap prints a warning on stderr.
         chosen = Colormap(catalog.resolve(forward))
     except KeyError:
         raise UsageError(f"--cmap {name}: no such colour map{suggestion(forward, catalog)}") from None
-    colors = (chosen if forward == plain else chosen.reversed()).lut(steps)
+    colors = (chosen if forward == stripped else chosen.reversed()).lut(steps)
     gradient: NDArray[np.uint8] = np.rint(colors[:, :3] * 255).astype(np.uint8)
     gradient.flags.writeable = False
     return gradient

@@ -38,21 +38,21 @@ _ESTIMATES = ("_ring", "_corrected", "_fit")
 
 def _name(quantity: Quantity) -> tuple[str, str]:
     """The name without its scale, and the ending of an estimate with its scale; "" for other quantities."""
-    plain, _, scale = quantity.name.partition(AT_SCALE)
-    ending = next((ending for ending in _ESTIMATES if plain.endswith(ending)), "")
-    return plain, f"{ending}{AT_SCALE}{scale}" if ending and scale else ending
+    base, _, scale = quantity.name.partition(AT_SCALE)
+    ending = next((ending for ending in _ESTIMATES if base.endswith(ending)), "")
+    return base, f"{ending}{AT_SCALE}{scale}" if ending and scale else ending
 
 
 def floor_needs(quantity: Quantity) -> set[str]:
     """The quantities that `floor` takes from the result beside the star sums."""
-    plain, at = _name(quantity)
+    base, at = _name(quantity)
     if at and quantity.kind == "measure":
         return {f"h{at}", "h"}
     if at and quantity.kind == "density":
         return {f"kappa_1{at}", f"kappa_2{at}"} if quantity.length_exponent == -2 else set()
-    if plain in (*_KAPPAS, *_ENERGIES, "K_density"):
+    if base in (*_KAPPAS, *_ENERGIES, "K_density"):
         return {"h", "K", "K_density"}
-    return {"h"} if plain in _SIGNED else set()
+    return {"h"} if base in _SIGNED else set()
 
 
 def floor(analysis: Result, quantity: Quantity, values: Floats) -> Floats | None:
@@ -63,46 +63,46 @@ def floor(analysis: Result, quantity: Quantity, values: Floats) -> Floats | None
     an angle defect. Estimates at a scale are flat where they lift a star by less than the last place. 0 where a value
     is exact.
     """
-    plain, at = _name(quantity)
+    base, at = _name(quantity)
     bound: Callable[[_Rounding], Floats] | None = None
     if at and quantity.kind in ("density", "measure"):
         bound = lambda rounding: rounding.estimate(quantity, at)  # noqa: E731
-    elif plain in _OF_STARS:
-        bound = lambda rounding: rounding.of_star(plain)  # noqa: E731
+    elif base in _OF_STARS:
+        bound = lambda rounding: rounding.of_star(base)  # noqa: E731
     known = np.abs(values[np.isfinite(values)])
     if bound is None or not len(known):
         return None
     zero = values == 0
     # An H whose sign is rounding is 0 already; its size shows that it is not exactly 0.
-    settled = zero & (np.nan_to_num(analysis.computed("h")) != 0) if plain in _SIGNED else np.zeros(len(values), bool)
+    settled = zero & (np.nan_to_num(analysis.computed("h")) != 0) if base in _SIGNED else np.zeros(len(values), bool)
     rounding = _Rounding(analysis)
-    found = np.zeros(len(values))
+    bounds = np.zeros(len(values))
     if known.any():
         # If even a coarse bound is exceeded, or a value has the colour of 0 anyway, no finer bound is computed. The
         # coarsest needs no sweep over the faces: at 1,000,000 vertices it saves a sixth of the time of a coloured PLY.
         seen = np.abs(values) > _UNSEEN * np.median(known)
         effects = (rounding.coarse_effects, lambda: _turns(analysis)[1:])
         if all((np.abs(values) <= rounding.reach(quantity, *effect()))[seen].any() for effect in effects):
-            found = analysis.surface.in_file_unit(bound(rounding), quantity.length_exponent)
-            found = found * (0.5**quantity.mean_degree if analysis.conventions.mean == "average" else 1.0)
-    found = np.where(zero, np.where(settled, np.finfo(np.float64).tiny, 0.0), found)
-    return found if (np.abs(values) <= found)[found > 0].any() else None
+            bounds = analysis.surface.in_file_unit(bound(rounding), quantity.length_exponent)
+            bounds = bounds * (0.5**quantity.mean_degree if analysis.conventions.mean == "average" else 1.0)
+    bounds = np.where(zero, np.where(settled, np.finfo(np.float64).tiny, 0.0), bounds)
+    return bounds if (np.abs(values) <= bounds)[bounds > 0].any() else None
 
 
 def edge_floor(analysis: Result, theta: Floats) -> Floats:
     """(E,) 0, and infinity where rounding of the coordinates may turn the two faces at an edge by all of θ."""
     edges = analysis.surface.edges
     place, _, _ = _turns(analysis)
-    found = np.zeros(len(edges))
+    bounds = np.zeros(len(edges))
     for block in slices(len(edges.pairs[0])):
         inner = edges.inner_edges(block)
         with np.errstate(divide="ignore", invalid="ignore"):
-            faces = (inner.one // 3, inner.other // 3)
+            faces = (inner.half_edge // 3, inner.twin // 3)
             turn = sum(place * _longest(analysis)[face] / analysis.columns["face_area"][face] for face in faces)
-            found[inner.where] = np.where(
+            bounds[inner.where] = np.where(
                 (theta[inner.where] != 0) & (np.abs(theta[inner.where]) <= 4 * turn + _DEFECT), np.inf, 0.0
             )
-    return found
+    return bounds
 
 
 class _Rounding:
@@ -215,7 +215,7 @@ def _sigmas(analysis: Result) -> tuple[Floats, Floats]:
     """Bounds of K and h."""
     surface = analysis.surface
     noise = float(np.ldexp(_turns(analysis)[0], surface.unit_exponent)) / np.sqrt(12)
-    found = analysis.with_noise(UNCERTAINTIES, noise)
+    sigmas = analysis.with_noise(UNCERTAINTIES, noise)
     extreme = 1 + np.sqrt(2 * np.log(max(surface.n_vertices, 2)))
-    K, h = (extreme * found[name] for name in UNCERTAINTIES)
+    K, h = (extreme * sigmas[name] for name in UNCERTAINTIES)
     return K + _DEFECT, h

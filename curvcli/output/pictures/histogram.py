@@ -72,45 +72,44 @@ def write_histograms(
     font = sheet.font(1.3 * size[0] / across, 1.3 * size[1] / down)
     small, margin = max(0.85 * font, 8.0), round(0.8 * font)
     keys = [LegendEntry("bars: share of the vertices"), LegendEntry("share of the area", "line", sheet.ink)]
-    if any(one.scale.clipped_below or one.scale.clipped_above for one in columns):
+    if any(column.scale.clipped_below or column.scale.clipped_above for column in columns):
         keys.append(LegendEntry("beyond the range", "square", sheet.pale))
-    words = about(analysis, columns)
-    footer = sheet.flow([*keys, *map(LegendEntry, words)], size[0] - 2 * margin, small)
+    about_lines = about(analysis, columns)
+    footer = sheet.flow([*keys, *map(LegendEntry, about_lines)], size[0] - 2 * margin, small)
     foot = len(footer) * LINE * small + margin
     width, height = size[0] / across, (size[1] - foot) / down
-    legends = [sheet.flow(legend(one, value_range), width - 2 * margin, small) for one in columns]
+    legends = [sheet.flow(legend(column, value_range), width - 2 * margin, small) for column in columns]
     below = max(map(len, legends), default=0) * LINE * small
     areas = np.asarray(analysis.columns["star_area"], np.float64)
-    for place, one in enumerate(columns):
-        row, column = divmod(place, across)
-        left, top = column * width + margin, row * height
+    for place, column in enumerate(columns):
+        left, top = place % across * width + margin, place // across * height
         room = width - 2 * margin
-        draw_title(sheet, one, analysis.conventions.unit, (left, top + 1.2 * font), font, room)
+        draw_title(sheet, column, analysis.conventions.unit, (left, top + 1.2 * font), font, room)
         tall = height - below - 5.0 * font
         box = (left + 3.2 * font, top + 2.3 * font, room - 3.6 * font, max(tall, 10.0))
-        if one.scale.categories:
-            _labels(sheet, one, areas, analysis, box, font)
-        elif one.scale.low is not None:
-            _numbers(sheet, one, areas, analysis, box, font)
+        if column.scale.categories:
+            _labels(sheet, column, areas, analysis, box, font)
+        elif column.scale.low is not None:
+            _numbers(sheet, column, areas, analysis, box, font)
         sheet.draw(legends[place], left, top + height - below - 0.2 * font, small)
     sheet.draw(footer, margin, size[1] - len(footer) * LINE * small - 0.5 * margin, small)
-    sentences = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
+    sentences = [sentence(column, value_range, analysis.conventions.unit) for column in columns]
     stream.write(sheet.content(f"{mesh_name(analysis)}: histograms", "\n".join(sentences)))
 
 
-def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Result, box: Box, font: float) -> None:
-    scale = one.scale
+def _numbers(sheet: Sheet, column: Colored, areas: Shares, analysis: Result, box: Box, font: float) -> None:
+    scale = column.scale
     assert scale.low is not None
     assert scale.high is not None
-    values = np.where(analysis.surface.referenced, analysis.vertices[one.name].astype(np.float64), np.nan)
+    values = np.where(analysis.surface.referenced, analysis.vertices[column.name].astype(np.float64), np.nan)
     low, high, bins = scale.low, scale.high, None
     values = scale.settled(values)
-    if one.quantity.kind == "count" and high - low < _MOST:
+    if column.quantity.kind == "count" and high - low < _MOST:
         # Each number has a bin with the number in the middle.
         low, high = math.floor(low) - 0.5, math.ceil(high) + 0.5
         bins = round(high - low)
-    found = distribution(values, areas, low, high, bins)
-    bins = len(found.edges) - 1
+    shares = distribution(values, areas, low, high, bins)
+    bins = len(shares.edges) - 1
     axes = sheet.axes(box)
     # Positions in bins, since differences of values may overflow; values beyond the range are outside.
     at = np.array([-1.0, *range(bins), bins + 0.5])
@@ -118,35 +117,35 @@ def _numbers(sheet: Sheet, one: Colored, areas: Shares, analysis: Result, box: B
     colors = [sheet.pale, *(scale.gradient[middle] / 255), sheet.pale]
     axes.bar(
         at + 0.25 * (at < 0),
-        found.vertices,
+        shares.vertices,
         1.0,
         align="edge",
         color=colors,
         edgecolor=sheet.pale,
         linewidth=0.02 * font,
     )
-    axes.stairs(found.area[1:-1], range(bins + 1), color=sheet.ink, linewidth=0.1 * font)
-    for edge, share in ((-0.75, found.area[0]), (bins + 0.5, found.area[-1])):
+    axes.stairs(shares.area[1:-1], range(bins + 1), color=sheet.ink, linewidth=0.1 * font)
+    for edge, share in ((-0.75, shares.area[0]), (bins + 0.5, shares.area[-1])):
         if share:
             axes.hlines(share, edge, edge + 1.0, color=sheet.ink, linewidth=0.1 * font)
     axes.set_xlim(-1.0, bins + 1.75)
     room = max(2, int(box[2] / (4.5 * font)))
-    places, labels, _ = ticks(scale.low, scale.high, room, whole=one.quantity.kind == "count")
+    positions, labels, _ = ticks(scale.low, scale.high, room, whole=column.quantity.kind == "count")
     half = high / 2 - low / 2
-    axes.set_xticks([bins * (place / 2 - low / 2) / half for place in places] if half > 0 else [0.5], labels)
+    axes.set_xticks([bins * (place / 2 - low / 2) / half for place in positions] if half > 0 else [0.5], labels)
     _finish(sheet, axes, box[3], font)
 
 
-def _labels(sheet: Sheet, one: Colored, areas: Shares, analysis: Result, box: Box, font: float) -> None:
-    codes = analysis.columns[one.name]
+def _labels(sheet: Sheet, column: Colored, areas: Shares, analysis: Result, box: Box, font: float) -> None:
+    codes = analysis.columns[column.name]
     axes = sheet.axes(box)
     total, weight = len(codes), float(areas.sum()) or 1.0
-    for place, category in enumerate(one.scale.categories):
-        mine = codes == one.quantity.labels.index(category.name)
+    for place, category in enumerate(column.scale.categories):
+        mine = codes == column.quantity.labels.index(category.name)
         color = np.array(category.color) / 255
         axes.bar(place, category.count / total, 0.8, color=color)
         axes.hlines(float(areas[mine].sum()) / weight, place - 0.4, place + 0.4, color=sheet.ink, linewidth=0.1 * font)
-    axes.set_xlim(-0.8, max(4, len(one.scale.categories)) - 0.2)
+    axes.set_xlim(-0.8, max(4, len(column.scale.categories)) - 0.2)
     axes.set_xticks([])
     _finish(sheet, axes, box[3], font)
 

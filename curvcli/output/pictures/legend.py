@@ -77,24 +77,24 @@ def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> st
     if scale.low is None or scale.high is None:
         return "undefined at every vertex"
     behind = f" {unit}" if unit else ""
-    parts = ((scale.clipped_below, "below"), (scale.clipped_above, "above"))
-    cut = [f"{count:,} {where}" for count, where in parts if count]
+    clipped = ((scale.clipped_below, "below"), (scale.clipped_above, "above"))
+    cut = [f"{count:,} {where}" for count, where in clipped if count]
     if scale.low == scale.high and not cut:
         of = " within rounding" if scale.rounded is not None else ""
         return f"{number(scale.low)}{behind}{of} wherever defined"
     digits = next((d for d in range(4, 17) if number(scale.low, d) != number(scale.high, d)), 17)
     ends = f"{number(scale.low, digits)} to {number(scale.high, digits)}{behind}"
     # Percentiles cut off values, unless the values differ by rounding only: then the range has all of them.
-    words = range_words(value_range, scale.signed) if cut or value_range is not None else "all values"
+    rule = range_words(value_range, scale.signed) if cut or value_range is not None else "all values"
     settled = "" if scale.rounded is None else f", {int(scale.rounded.sum()):,} are 0 within rounding"
-    return f"{ends} ({words}), cuts {' and '.join(cut) or 'nothing'}{settled}"
+    return f"{ends} ({rule}), cuts {' and '.join(cut) or 'nothing'}{settled}"
 
 
 def sentence(colored: Colored, value_range: str | None, length: str | None) -> str:
     """One line for the terminal: the range of a column, the rule that chose it, and the values outside it."""
     scale = colored.scale
     if scale.categories:
-        return f"{colored.name}: " + ", ".join(f"{one.count:,} {one.name}" for one in scale.categories)
+        return f"{colored.name}: " + ", ".join(f"{category.count:,} {category.name}" for category in scale.categories)
     undefined = f"; {scale.nulls:,} undefined" if scale.nulls and scale.low is not None else ""
     return f"{colored.name}: {range_text(scale, value_range, colored.unit(length))}{undefined}"
 
@@ -110,7 +110,7 @@ def about(analysis: Result, columns: Sequence[Colored]) -> list[str]:
     surface = analysis.surface
     vertices = counted(int(surface.referenced.sum()), "vertex", "vertices")
     shape = f"{mesh_name(analysis)}: {vertices}, {counted(surface.n_faces, 'face')}"
-    return [shape, *conventions(analysis, [one.quantity for one in columns])]
+    return [shape, *conventions(analysis, [column.quantity for column in columns])]
 
 
 def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
@@ -145,10 +145,10 @@ def ticks(low: float, high: float, room: int, whole: bool = False) -> tuple[list
     power = 0 if whole or 1e-2 <= size < 1e4 else max(-300, 3 * math.floor(math.log10(size) / 3))
     first, last = low / 10.0**power, high / 10.0**power
     locator = MaxNLocator(room, steps=[1, 2, 2.5, 5, 10], integer=whole)
-    found = [float(place) for place in locator.tick_values(first, last)]
-    step = found[1] - found[0]
+    steps = [float(place) for place in locator.tick_values(first, last)]
+    step = steps[1] - steps[0]
     digits = next(d for d in range(20) if d == 19 or abs(round(step, d) - step) < 1e-9 * step)
     slack = 1e-9 * step
-    places = [round(place, digits) + 0.0 for place in found if first - slack <= place <= last + slack]
-    labels = [f"{place:.{digits}f}".replace("-", "−") for place in places]
-    return [place * 10.0**power for place in places], labels, power
+    positions = [round(place, digits) + 0.0 for place in steps if first - slack <= place <= last + slack]
+    labels = [f"{place:.{digits}f}".replace("-", "−") for place in positions]
+    return [place * 10.0**power for place in positions], labels, power

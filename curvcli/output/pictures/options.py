@@ -72,9 +72,9 @@ def parse_size(text: str | None) -> tuple[int, int] | None:
     """
     if text is None:
         return None
-    found = re.fullmatch(r"\s*(\d{1,5})\s*[xX×]\s*(\d{1,5})\s*", text)
-    if found and all(SMALLEST <= int(side) <= LARGEST for side in found.groups()):
-        return int(found[1]), int(found[2])
+    match = re.fullmatch(r"\s*(\d{1,5})\s*[xX×]\s*(\d{1,5})\s*", text)
+    if match and all(SMALLEST <= int(side) <= LARGEST for side in match.groups()):
+        return int(match[1]), int(match[2])
     raise UsageError(f"--size {text}: expected WxH with sides of {SMALLEST} to {LARGEST} pixels, as 1200x900")
 
 
@@ -111,12 +111,12 @@ def arrange(count: int, size: tuple[int, int] | None, panel: tuple[int, int]) ->
         return columns, rows, (min(columns * panel[0], 8192), min(rows * panel[1], 8192))
     shape = panel[0] / panel[1]
     options = [(n, -(-count // n)) for n in range(1, count + 1)]
-    readable = [one for one in options if min(size[0] / one[0], size[1] / one[1]) >= _SMALLEST_PANEL]
+    readable = [grid for grid in options if min(size[0] / grid[0], size[1] / grid[1]) >= _SMALLEST_PANEL]
     if not readable:
         across = math.ceil(math.sqrt(count))
         enough = f"{across * _SMALLEST_PANEL}x{-(-count // across) * _SMALLEST_PANEL}"
         raise UsageError(f"--size {size[0]}x{size[1]}: too small for {count} panels; {enough} is enough")
-    columns, rows = max(readable, key=lambda one: min(size[0] / one[0] / shape, size[1] / one[1]))
+    columns, rows = max(readable, key=lambda grid: min(size[0] / grid[0] / shape, size[1] / grid[1]))
     return columns, rows, size
 
 

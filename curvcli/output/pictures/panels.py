@@ -10,30 +10,30 @@ from .sheet import Box, LegendEntry, Sheet
 
 
 def draw_title(
-    sheet: Sheet, one: Colored, length: str | None, place: tuple[float, float], font: float, room: float
+    sheet: Sheet, column: Colored, length: str | None, place: tuple[float, float], font: float, room: float
 ) -> None:
     """Draw name, symbol and unit of a column, as large as fits; the unit has the power of ten of the ticks."""
-    scale = one.scale
+    scale = column.scale
     power = ticks(scale.low, scale.high, 5)[2] if scale.low is not None and scale.high is not None else 0
-    unit = " ".join(part for part in (f"10{raised(power)}" if power else "", one.unit(length)) if part)
-    rest = "  ".join(part for part in (one.symbol, f"[{unit}]" if unit else "") if part)
-    width, gap = sheet.measure(one.name, font, bold=True), 0.8 * font
+    unit = " ".join(part for part in (f"10{raised(power)}" if power else "", column.unit(length)) if part)
+    rest = "  ".join(part for part in (column.symbol, f"[{unit}]" if unit else "") if part)
+    width, gap = sheet.measure(column.name, font, bold=True), 0.8 * font
     size = font * min(1.0, room / (width + gap + sheet.measure(rest, font)))
-    sheet.text(*place, one.name, size, bold=True)
+    sheet.text(*place, column.name, size, bold=True)
     sheet.text(place[0] + (width + gap) * size / font, place[1], rest, size)
 
 
-def draw_bar(sheet: Sheet, one: Colored, box: Box, font: float) -> None:
+def draw_bar(sheet: Sheet, column: Colored, box: Box, font: float) -> None:
     """Draw the colour bar with its ticks; a pointed end marks values beyond it."""
-    scale, (left, top, width, height) = one.scale, box
+    scale, (left, top, width, height) = column.scale, box
     assert scale.low is not None
     assert scale.high is not None
     axes = sheet.axes(box)
     spread = scale.high / 2 - scale.low / 2 > 0
     colors = scale.gradient if spread else scale.gradient[len(scale.gradient) // 2][None]
     axes.imshow(colors[None], aspect="auto", extent=(0, 1, 0, 1), interpolation="nearest")
-    places, labels, _ = ticks(scale.low, scale.high, max(2, int(width / (4.5 * font))))
-    at = [(place / 2 - scale.low / 2) / (scale.high / 2 - scale.low / 2) for place in places] if spread else [0.5]
+    positions, labels, _ = ticks(scale.low, scale.high, max(2, int(width / (4.5 * font))))
+    at = [(place / 2 - scale.low / 2) / (scale.high / 2 - scale.low / 2) for place in positions] if spread else [0.5]
     axes.set_yticks([])
     axes.set_xticks(at, labels, fontsize=0.85 * font * 0.72, color=sheet.pale, family="DejaVu Sans")
     axes.tick_params(length=0.3 * font * 0.72, width=0.06 * font, color=sheet.pale, pad=0.2 * font * 0.72)
@@ -50,9 +50,9 @@ def draw_bar(sheet: Sheet, one: Colored, box: Box, font: float) -> None:
             sheet.triangle(tip, shares((red, green, blue)))
 
 
-def legend(one: Colored, value_range: str | None) -> list[LegendEntry]:
+def legend(column: Colored, value_range: str | None) -> list[LegendEntry]:
     """Entries of the legend: range and values outside it, undefined vertices, or labels."""
-    scale = one.scale
+    scale = column.scale
     if scale.categories:
         return [LegendEntry(f"{c.name} {c.count:,}", "square", shares(c.color)) for c in scale.categories]
     items = [LegendEntry(range_text(scale, value_range))]

@@ -54,7 +54,7 @@ def write_picture(
         Lines(edges[surface.boundary_edges], edge_ink, thick),
         Lines(edges[surface.nonmanifold_edges], _NONMANIFOLD, thick),
     ]
-    plain = np.broadcast_to(np.array(_PLAIN, np.uint8), (surface.n_vertices, 3))
+    surface_color = np.broadcast_to(np.array(_PLAIN, np.uint8), (surface.n_vertices, 3))
     positions = screen(surface, options.view, options.up)
     settings: dict[str, Any] = {"background": sheet.background, "mesh_color": _MESH if options.edges else None}
 
@@ -63,22 +63,22 @@ def write_picture(
     ) -> list[Pixels]:
         return render(positions, surface.faces, colorings, pixels_of, lines=lines, cells=cells, **settings)
 
-    blended = [place for place, one in enumerate(columns) if not page.cut(one) and one.quantity.on == "vertex"]
+    blended = [place for place, column in enumerate(columns) if not page.cut(column) and column.quantity.on == "vertex"]
     pictures = draw([columns[place].scale.rgb for place in blended], lines)
     shown = dict(zip(blended, pictures, strict=True))
-    for place, one in enumerate(columns):
-        if one.quantity.on == "edge":
-            bent = np.flatnonzero((one.scale.rgb != one.scale.undefined).any(axis=1) & page.unlike_0(one))
-            bent = bent[np.argsort(np.abs(np.nan_to_num(analysis.edges[one.name][bent])), kind="stable")]
-            tinted = Lines(edges[bent], edge_ink, 1.5 * thick, one.scale.rgb[bent])
-            shown[place] = draw([plain], [*lines, tinted])[0]
-        elif page.cut(one):
-            cells = own_cells(positions, surface.faces, one.scale.rgb, page.flat(one))
+    for place, column in enumerate(columns):
+        if column.quantity.on == "edge":
+            bent = np.flatnonzero((column.scale.rgb != column.scale.undefined).any(axis=1) & page.unlike_0(column))
+            bent = bent[np.argsort(np.abs(np.nan_to_num(analysis.edges[column.name][bent])), kind="stable")]
+            tinted = Lines(edges[bent], edge_ink, 1.5 * thick, column.scale.rgb[bent])
+            shown[place] = draw([surface_color], [*lines, tinted])[0]
+        elif page.cut(column):
+            cells = own_cells(positions, surface.faces, column.scale.rgb, page.flat(column))
             shown[place] = draw([], lines, cells)[0]
-    for place, pixels in shown.items() if columns else enumerate(draw([plain], lines)):
+    for place, pixels in shown.items() if columns else enumerate(draw([surface_color], lines)):
         sheet.image(pixels, page.box(place))
     page.draw()
-    sentences = [sentence(one, value_range, analysis.conventions.unit) for one in columns]
+    sentences = [sentence(column, value_range, analysis.conventions.unit) for column in columns]
     stream.write(sheet.content(page.name, "\n".join(sentences)))
 
 
@@ -108,28 +108,28 @@ class _Page:
         foot = len(self.footer) * LINE * self.small + self.margin
         self.panel = int(panel[0]), int((sheet.height - foot) / down)
         inner = self.panel[0] - 2 * self.margin
-        self.legends = [sheet.flow(legend(one, value_range), inner, self.small) for one in columns]
+        self.legends = [sheet.flow(legend(column, value_range), inner, self.small) for column in columns]
         rows = max(map(len, self.legends), default=0)
-        self.bar = any(one.scale.low is not None for one in columns)
+        self.bar = any(column.scale.low is not None for column in columns)
         below = rows * LINE * self.small + (2.9 * font if self.bar else 0)
         self.above = 2.0 * font if columns else self.margin
         self.picture = inner, max(16, int(self.panel[1] - self.above - below - 0.4 * font))
 
-    def cut(self, one: Colored) -> bool:
+    def cut(self, column: Colored) -> bool:
         """True if a column is painted in the cells of its vertices: a density of stars on a creased mesh."""
-        return self.creased and one.quantity.name in STARS and one.scale.low is not None
+        return self.creased and column.quantity.name in STARS and column.scale.low is not None
 
-    def flat(self, one: Colored) -> tuple[int, int, int]:
+    def flat(self, column: Colored) -> tuple[int, int, int]:
         """The colour of 0, which flat faces have between the cells; at the end of the map that is nearer to it."""
-        scale = one.scale
+        scale = column.scale
         low, high = scale.low or 0.0, scale.high or 0.0
         share = min(max(-(low / 2) / (high / 2 - low / 2), 0.0), 1.0) if high > low else 0.5
         red, green, blue = scale.gradient[round(share * (len(scale.gradient) - 1))].tolist()
         return red, green, blue
 
-    def unlike_0(self, one: Colored) -> NDArray[np.bool_]:
+    def unlike_0(self, column: Colored) -> NDArray[np.bool_]:
         """(n,) whose colour is not that of 0."""
-        different: NDArray[np.bool_] = (one.scale.rgb != np.array(self.flat(one), np.uint8)).any(axis=1)
+        different: NDArray[np.bool_] = (column.scale.rgb != np.array(self.flat(column), np.uint8)).any(axis=1)
         return different
 
     def box(self, place: int) -> tuple[int, int, int, int]:
@@ -140,14 +140,16 @@ class _Page:
     def draw(self) -> None:
         """Titles, colour bars and legends of all panels, and the line at the foot."""
         sheet = self.sheet
-        for place, one in enumerate(self.columns):
+        for place, column in enumerate(self.columns):
             left, top = self._origin(place)
-            draw_title(sheet, one, self.unit, (left + self.margin, top + 1.1 * self.font), self.font, self.picture[0])
+            draw_title(
+                sheet, column, self.unit, (left + self.margin, top + 1.1 * self.font), self.font, self.picture[0]
+            )
             at = top + self.above + self.picture[1] + 0.4 * self.font
-            if one.scale.low is not None:
+            if column.scale.low is not None:
                 inset = 0.06 * self.picture[0]
                 box = (left + self.margin + inset, at, self.picture[0] - 2 * inset, 0.9 * self.font)
-                draw_bar(self.sheet, one, box, self.font)
+                draw_bar(self.sheet, column, box, self.font)
                 at += 2.9 * self.font
             self.sheet.draw(self.legends[place], left + self.margin, at, self.small)
         foot = len(self.footer) * LINE * self.small

@@ -81,8 +81,8 @@ def render(
             line_width=finer * max(0.75, min(size) / 900),
             copy_mesh=False,
         )
-        for one in lines:
-            _add_lines(plotter, pv, positions, one, finer)
+        for segments in lines:
+            _add_lines(plotter, pv, positions, segments, finer)
         _light(plotter, pv)
         _look(plotter, positions, size)
         pictures = []

@@ -92,18 +92,18 @@ def component_table(analysis: Result) -> Table:
     """One row per component: topology, totals and the rest of the report."""
     from ...report.build import pieces
 
-    found = pieces(analysis, analysis.surface.components)
+    rows = pieces(analysis, analysis.surface.components)
     statistics = _statistics(analysis, analysis.surface.components, analysis.request.statistics)
-    return {"component": np.arange(len(found), dtype=np.int32)} | _piece_columns(found) | statistics
+    return {"component": np.arange(len(rows), dtype=np.int32)} | _piece_columns(rows) | statistics
 
 
 def region_table(analysis: Result) -> Table:
     """One row per region, by its label: topology, totals and the rest of the report; no rows without `--regions`."""
     from ...report.build import pieces
 
-    found = [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
+    rows = [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
     names = () if analysis.regions is None else analysis.regions.names
-    table = {"region": _words(names)} | _piece_columns(found)
+    table = {"region": _words(names)} | _piece_columns(rows)
     if analysis.cut is not None:
         table |= _statistics(analysis.cut, analysis.cut_groups, analysis.request.statistics)
     return table
@@ -159,13 +159,13 @@ def _declared(name: str, values: list[Any], declared: Any) -> Table:
     return _numbers(name, values, range(POWERS) if Coefficients in get_args(declared) else ())
 
 
-def _numbers(name: str, values: list[Any], parts: Collection[object]) -> Table:
+def _numbers(name: str, values: list[Any], components: Collection[object]) -> Table:
     """Numbers as one column, vectors as one column for each of their parts; NaN for null, whole or in part."""
-    if not parts:
+    if not components:
         return {name: np.array(values, np.float64)}
-    nothing = [None] * len(parts)
+    nothing = [None] * len(components)
     rows = np.array([nothing if value is None else value for value in values], np.float64)
-    return {f"{name}_{part}": column for part, column in zip(parts, rows.T, strict=True)}
+    return {f"{name}_{part}": column for part, column in zip(components, rows.T, strict=True)}
 
 
 def _words(values: Sequence[str]) -> Labels:

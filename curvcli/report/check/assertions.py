@@ -80,16 +80,16 @@ class Assertion:
         return values, area, np.ones(len(values), bool)
 
     def _value(self, values: NDArray[np.float64], area: NDArray[np.float64], used: NDArray[np.bool_]) -> float | None:
-        found = statistics(self.quantity, values, area, used, "")
+        summary = statistics(self.quantity, values, area, used, "")
         value: float | None
         if self.statistic == "sum":
             known = values[used & ~np.isnan(values)]
             with np.errstate(over="ignore", invalid="ignore"):
                 value = float(known.sum()) if len(known) else None
         elif self.statistic == "absmax":
-            value = None if found.min is None or found.max is None else max(-found.min, found.max)
+            value = None if summary.min is None or summary.max is None else max(-summary.min, summary.max)
         else:
-            value = getattr(found, self.statistic)
+            value = getattr(summary, self.statistic)
         return value if value is not None and math.isfinite(value) else None
 
     def _place(self, analysis: Result, values: NDArray[np.float64], used: NDArray[np.bool_]) -> str:
@@ -106,12 +106,12 @@ class Assertion:
 
 def columns(scales: tuple[Scale, ...] = ()) -> dict[str, Quantity]:
     """Every scalar column by its name; where two elements share one, the vertices' comes first."""
-    found: dict[str, Quantity] = {}
+    quantities: dict[str, Quantity] = {}
     for quantity in _at(scales):
         alone = () if quantity.vector or AT_SCALE in quantity.name else (quantity.name,)
         for column in (*quantity.columns, *alone, *(f"{quantity.name}_{x}" for x in "xyz" if quantity.vector)):
-            found.setdefault(column, quantity)
-    return found
+            quantities.setdefault(column, quantity)
+    return quantities
 
 
 def _at(scales: tuple[Scale, ...]) -> list[Quantity]:

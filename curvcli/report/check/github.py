@@ -19,11 +19,16 @@ def write_github(report: CheckReport) -> bytes:
     """Write an `::error` for each failure, the first of each check and a count of the others; a `::warning` for each
     warning that the text report shows; a `::notice` of a configuration file that the verdict depends on; a summary."""
     failed, others = all_failures(report.meshes)
-    lines = [_command("error", f"curvcli {one.outcome.label}", one.text, one.mesh.path) for one in failed]
+    lines = [
+        _command("error", f"curvcli {failure.outcome.label}", failure.text, failure.mesh.path) for failure in failed
+    ]
     if others:
         lines.append(_command("error", "curvcli", others))
     shown_warnings, _ = warnings(report.meshes)
-    lines += [_command("warning", f"curvcli {one.code}", warning(mesh, one), mesh.path) for mesh, one in shown_warnings]
+    lines += [
+        _command("warning", f"curvcli {remark.code}", warning(mesh, remark), mesh.path)
+        for mesh, remark in shown_warnings
+    ]
     if configuration := sentence(report.configuration):
         lines.append(_command("notice", "curvcli configuration", configuration))
     lines.append(f"curvcli: {summary(report)}")

@@ -37,7 +37,7 @@ class Plan:
     @property
     def passes(self) -> list[str]:
         """The vertex columns that the assertions name."""
-        return [one.quantity.name for one in self.assertions if one.quantity.on == "vertex"]
+        return [assertion.quantity.name for assertion in self.assertions if assertion.quantity.on == "vertex"]
 
     @property
     def rules(self) -> list[Rule]:
@@ -45,8 +45,11 @@ class Plan:
         return [
             Rule("input", INPUT, READABLE),
             *(Rule(name, IDENTITY, _statement(name)) for name in self.identities),
-            *(Rule(one.name, REQUIREMENT, one.requirement.statement) for one in self.requirements),
-            *(Rule(one.name, ASSERTION, f"{one.name}, nulls left out") for one in self.assertions),
+            *(
+                Rule(requirement.name, REQUIREMENT, requirement.requirement.statement)
+                for requirement in self.requirements
+            ),
+            *(Rule(assertion.name, ASSERTION, f"{assertion.name}, nulls left out") for assertion in self.assertions),
         ]
 
 
@@ -71,7 +74,7 @@ def plan(
     wanted = parse([*defaults(), *require])
     return Plan(
         tuple(name for name in identities() if name not in allowed),
-        tuple(one for one in wanted if one.requirement.name not in allowed),
+        tuple(required for required in wanted if required.requirement.name not in allowed),
         tuple(dict.fromkeys(assertions.parse(text, scales) for text in asserted)),
     )
 
@@ -82,8 +85,8 @@ def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
     given = _given(analysis, chosen)
     outcomes = [
         *(_of_identity(check, flaw) for check in analysis.checks),
-        *(_of_requirement(one, analysis, given) for one in chosen.requirements),
-        *(_of_assertion(one, analysis) for one in chosen.assertions),
+        *(_of_requirement(requirement, analysis, given) for requirement in chosen.requirements),
+        *(_of_assertion(assertion, analysis) for assertion in chosen.assertions),
     ]
     failed = any(outcome.status == FAIL for outcome in outcomes)
     file, conventions = analysis.surface.file, analysis.conventions
@@ -138,16 +141,18 @@ def _statement(name: str) -> str:
 
 def _given(analysis: Result, chosen: Plan) -> dict[str, Any]:
     """Quantities that the requirements need, and the convention for H."""
-    needs = {need for one in chosen.requirements for need in one.requirement.needs} - {"mean"}
+    needs = {need for requirement in chosen.requirements for need in requirement.requirement.needs} - {"mean"}
     area, known = analysis.request.area, analysis.columns
     return {**evaluate(passes, analysis.surface, needs, area=area, known=known), "mean": analysis.request.mean}
 
 
-def _of_requirement(one: Required, analysis: Result, given: Mapping[str, Any]) -> Outcome:
-    problem = one.problem(analysis.surface, given)
-    return Outcome(one.name, REQUIREMENT, "whole", FAIL if problem else PASS, problem or one.requirement.statement)
+def _of_requirement(required: Required, analysis: Result, given: Mapping[str, Any]) -> Outcome:
+    problem = required.problem(analysis.surface, given)
+    return Outcome(
+        required.name, REQUIREMENT, "whole", FAIL if problem else PASS, problem or required.requirement.statement
+    )
 
 
-def _of_assertion(one: Assertion, analysis: Result) -> Outcome:
-    held, value, message = one.judge(analysis)
-    return Outcome(one.name, ASSERTION, "whole", PASS if held else FAIL, message, value, one.bound)
+def _of_assertion(assertion: Assertion, analysis: Result) -> Outcome:
+    held, value, message = assertion.judge(analysis)
+    return Outcome(assertion.name, ASSERTION, "whole", PASS if held else FAIL, message, value, assertion.bound)

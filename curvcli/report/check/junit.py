@@ -24,7 +24,7 @@ def write_junit(report: CheckReport) -> bytes:
         suite = TestSuite(escape_text(mesh.path))
         if not isinstance(report.configuration, msgspec.UnsetType):
             suite.add_property("curvcli.configuration", report.configuration.file)
-            suite.add_property("curvcli.configuration.sets", report.configuration.words)
+            suite.add_property("curvcli.configuration.sets", report.configuration.settings)
         suite.add_testcases([_case(mesh, outcome) for outcome in mesh.outcomes])
         document.add_testsuite(suite)
     document.update_statistics()  # type: ignore[no-untyped-call]

@@ -61,16 +61,16 @@ def by_name(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
 def scopes(outcomes: Sequence[Outcome], more: str = "") -> str:
     """Scopes of the outcomes of one check: `whole, 100 components`."""
     kinds: dict[str, int] = {}
-    parts = []
+    whole = []
     for outcome in outcomes:
         if outcome.scope == "whole":
-            parts = ["whole"]
+            whole = ["whole"]
         else:
             word = _PIECES.get(outcome.scope.split(" ", 1)[0], "other scope")
             kinds[word] = kinds.get(word, 0) + 1
-    if len(outcomes) == 1 and not parts and not more:
+    if len(outcomes) == 1 and not whole and not more:
         return outcomes[0].scope
-    return ", ".join([*parts, *(f"{number:,} {more}{word}{'s' * (number > 1)}" for word, number in kinds.items())])
+    return ", ".join([*whole, *(f"{number:,} {more}{word}{'s' * (number > 1)}" for word, number in kinds.items())])
 
 
 def warnings(
@@ -78,9 +78,9 @@ def warnings(
 ) -> tuple[list[tuple[CheckedMesh, Notice]], int]:
     """Warnings of a lone mesh, or of several meshes that fail (None: of all), and the number left out."""
     chosen = [mesh for mesh in meshes if most is None or len(meshes) == 1 or mesh.status == FAIL]
-    found = [(mesh, remark) for mesh in chosen for remark in mesh.warnings]
-    kept = found if most is None else found[:most]
-    return kept, len(found) - len(kept)
+    remarks = [(mesh, remark) for mesh in chosen for remark in mesh.warnings]
+    kept = remarks if most is None else remarks[:most]
+    return kept, len(remarks) - len(kept)
 
 
 def warning(mesh: CheckedMesh, remark: Notice) -> str:

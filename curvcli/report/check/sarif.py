@@ -41,12 +41,12 @@ def write_sarif(report: CheckReport) -> bytes:
 
 def _invocation(report: CheckReport) -> dict[str, Any]:
     """Exit code, and the configuration file that the verdict depends on."""
-    found: dict[str, Any] = {"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}
+    invocation: dict[str, Any] = {"executionSuccessful": report.exit_code in (0, 1), "exitCode": report.exit_code}
     if not isinstance(report.configuration, msgspec.UnsetType):
         text = escape_sarif(report.configuration.sentence)
-        found["toolConfigurationNotifications"] = [{"level": "note", "message": {"text": text}}]
-        found["properties"] = {"configuration": msgspec.to_builtins(report.configuration)}
-    return found
+        invocation["toolConfigurationNotifications"] = [{"level": "note", "message": {"text": text}}]
+        invocation["properties"] = {"configuration": msgspec.to_builtins(report.configuration)}
+    return invocation
 
 
 def uri_of(path: str) -> str:
@@ -74,19 +74,19 @@ def _location(path: str) -> dict[str, Any]:
 
 
 def _artifact(mesh: CheckedMesh) -> dict[str, Any]:
-    found: dict[str, Any] = {"roles": ["analysisTarget"]}
+    artifact_object: dict[str, Any] = {"roles": ["analysisTarget"]}
     if mesh.path == "-":
-        found["description"] = {"text": "stdin"}
+        artifact_object["description"] = {"text": "stdin"}
     else:
-        found["location"] = _location(mesh.path)
+        artifact_object["location"] = _location(mesh.path)
     if mesh.sha256 is not None:
-        found["hashes"] = {"sha-256": mesh.sha256}
-    return found
+        artifact_object["hashes"] = {"sha-256": mesh.sha256}
+    return artifact_object
 
 
 def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, int]) -> dict[str, Any]:
     identity = "\0".join((mesh.path, outcome.label)).encode("utf-8", "surrogateescape")
-    found: dict[str, Any] = {
+    result: dict[str, Any] = {
         "ruleId": escape_text(outcome.name),
         "ruleIndex": place[outcome.name],
         "kind": "fail",
@@ -97,7 +97,7 @@ def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, in
     if mesh.path != "-":
         # Code scanning shows a result at a line; for a mesh it is the first.
         artifact = {**_location(mesh.path), "index": index}
-        found["locations"] = [{"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": 1}}}]
+        result["locations"] = [{"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": 1}}}]
     if outcome.kind != INPUT:
-        found["properties"] = {"scope": escape_text(outcome.scope)}
-    return found
+        result["properties"] = {"scope": escape_text(outcome.scope)}
+    return result

@@ -63,15 +63,15 @@ def compare_cells(
                 lacking.append(Difference(f"vertices.{name}", status, None, None, None, None))
             continue
         compared += 1
-        one, other = a[name], b[name]
-        if "f" not in one.dtype.kind + other.dtype.kind and not (_numeric(one) and _numeric(other)):
-            found = _words(name, one, other)
-        elif not (_numeric(one) and _numeric(other)):
-            found = _words(name, one.astype(object), other.astype(object))
+        cells_a, cells_b = a[name], b[name]
+        if "f" not in cells_a.dtype.kind + cells_b.dtype.kind and not (_numeric(cells_a) and _numeric(cells_b)):
+            column = _words(name, cells_a, cells_b)
+        elif not (_numeric(cells_a) and _numeric(cells_b)):
+            column = _words(name, cells_a.astype(object), cells_b.astype(object))
         else:
-            numbers = scale.along(name, one.astype(np.float64), other.astype(np.float64))
-            found = _moved(name, *numbers, scale.typical(name), scale.noise(name), tolerance)
-        moved += [found] if found else []
+            numbers = scale.along(name, cells_a.astype(np.float64), cells_b.astype(np.float64))
+            column = _moved(name, *numbers, scale.typical(name), scale.noise(name), tolerance)
+        moved += [column] if column else []
     return moved, lacking, compared
 
 
@@ -79,30 +79,30 @@ def _numeric(column: CellArray) -> bool:
     return column.dtype.kind in "fiub"
 
 
-def _words(name: str, one: CellArray, other: CellArray) -> MovedColumn | None:
-    differ = np.flatnonzero(one.astype(object) != other.astype(object))
+def _words(name: str, first: CellArray, second: CellArray) -> MovedColumn | None:
+    differ = np.flatnonzero(first.astype(object) != second.astype(object))
     if not len(differ):
         return None
     row = int(differ[0])
-    first, second = (None if side[row] is None else str(side[row]) for side in (one, other))
-    return MovedColumn(name, len(one), len(differ), row, first, second, None, None)
+    first_text, second_text = (None if side[row] is None else str(side[row]) for side in (first, second))
+    return MovedColumn(name, len(first), len(differ), row, first_text, second_text, None, None)
 
 
-def _moved(name: str, one: CellArray, other: CellArray, typical: float, noise: float, tolerance: Tolerance) -> Any:
+def _moved(name: str, first: CellArray, second: CellArray, typical: float, noise: float, tolerance: Tolerance) -> Any:
     with np.errstate(invalid="ignore", over="ignore"):
-        size = np.maximum(np.maximum(np.abs(one), np.abs(other)), typical)
+        size = np.maximum(np.maximum(np.abs(first), np.abs(second)), typical)
         allowed = tolerance.allowed(size, noise)
-        gap = np.abs(one - other)
-    only_one = np.isnan(one) != np.isnan(other)
-    beyond = (gap > allowed) & (one != other)
+        gap = np.abs(first - second)
+    only_one = np.isnan(first) != np.isnan(second)
+    beyond = (gap > allowed) & (first != second)
     differing = int(np.count_nonzero(beyond | only_one))
     if not differing:
         return None
     lost = bool(only_one.any())
     row = int(np.argmax(only_one if lost else np.where(beyond, gap, -1.0)))
-    cells = [None if math.isnan(side[row]) else float(side[row]) for side in (one, other)]
+    cells = [None if math.isnan(side[row]) else float(side[row]) for side in (first, second)]
     move = (None, None) if lost else (float(gap[row]), float(allowed[row]))
-    return MovedColumn(name, len(one), differing, row, *cells, *move)
+    return MovedColumn(name, len(first), differing, row, *cells, *move)
 
 
 class _Scales:
@@ -133,15 +133,15 @@ class _Scales:
         quantity = passes.column(name)
         return noise_of(name, quantity.length_exponent, self.edge) if quantity else 0.0
 
-    def along(self, name: str, one: CellArray, other: CellArray) -> tuple[CellArray, CellArray]:
+    def along(self, name: str, first: CellArray, second: CellArray) -> tuple[CellArray, CellArray]:
         """Both columns, lines of b turned to point along those of a: ±d is the same line."""
         quantity, axes = passes.column(name), self._stems[stem(name)]
         if not (quantity and quantity.line) or not all(axis in side for axis in axes for side in self._tables):
-            return one, other
+            return first, second
         a, b = self._tables
         with np.errstate(invalid="ignore"):
             against = sum(a[axis] * b[axis] for axis in axes) < 0
-        return one, np.where(against, -other, other)
+        return first, np.where(against, -second, second)
 
 
 def _of(function: Callable[[CellArray], Any], column: CellArray) -> float:

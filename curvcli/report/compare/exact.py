@@ -71,12 +71,12 @@ def _mean(parity: str) -> str:
     return "h_signed" if parity == "odd" else "h"
 
 
-def error_norms(column: str, exact: str, found: Floats, wanted: Floats, area: Floats) -> ErrorNorms:
+def error_norms(column: str, exact: str, values: Floats, exact_values: Floats, area: Floats) -> ErrorNorms:
     """Error norms of a column (V,) against exact values (V,), NaN is null; area: (V,) weights."""
-    known = np.isfinite(wanted)
-    both = known & np.isfinite(found) & (area > 0)
-    weight, reference = area[both], wanted[both]
-    gap = found[both] - reference
+    known = np.isfinite(exact_values)
+    both = known & np.isfinite(values) & (area > 0)
+    weight, reference = area[both], exact_values[both]
+    gap = values[both] - reference
     total = float(weight.sum())
     if not total:
         return ErrorNorms(column, exact, None, None, None, None, None, None, int((known & ~both).sum()), 0)

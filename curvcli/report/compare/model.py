@@ -64,20 +64,20 @@ def model(
     )
 
 
-def rows(found: Comparison) -> list[tuple[str, str, str, str, float | None, float | None]]:
+def rows(comparison: Comparison) -> list[tuple[str, str, str, str, float | None, float | None]]:
     """Key, status, both values as text, move and allowance: one row per difference, columns of cells last."""
-    listed = [(d.key, d.status, as_text(d.a), as_text(d.b), d.moved, d.allowed) for d in found.differences]
-    for c in found.columns:
+    listed = [(d.key, d.status, as_text(d.a), as_text(d.b), d.moved, d.allowed) for d in comparison.differences]
+    for c in comparison.columns:
         status = "changed" if c.moved is None else "moved"
         listed.append((f"vertices.{c.name}.{c.vertex}", status, as_text(c.a), as_text(c.b), c.moved, c.allowed))
     return listed
 
 
-def table(found: Comparison) -> dict[str, Any]:
+def table(comparison: Comparison) -> dict[str, Any]:
     """The rows as columns of a table file."""
     from ...mesh.file import Labels
 
-    listed = rows(found)
+    listed = rows(comparison)
     columns: dict[str, Any] = {}
     for place, name in enumerate(("key", "status", "a", "b")):
         names = tuple(dict.fromkeys(str(row[place]) for row in listed))

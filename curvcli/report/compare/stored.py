@@ -33,19 +33,19 @@ def decode(data: bytes) -> dict[str, Any]:
     Errors: InputError.
     """
     try:
-        found = msgspec.json.decode(data)
+        tree = msgspec.json.decode(data)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"no JSON: {error}", hint=_HINT) from None
-    if isinstance(found, list):
-        raise InputError(f"a list of {len(found)} reports found, one report expected", hint=_HINT)
-    if not isinstance(found, dict) or not {"schema_version", "topology", "checks"} <= found.keys():
+    if isinstance(tree, list):
+        raise InputError(f"a list of {len(tree)} reports found, one report expected", hint=_HINT)
+    if not isinstance(tree, dict) or not {"schema_version", "topology", "checks"} <= tree.keys():
         raise InputError("JSON, but no report of `curvcli analyze`", hint=_HINT)
-    version = found["schema_version"]
+    version = tree["schema_version"]
     if version != SCHEMA_VERSION:
         newer = isinstance(version, int) and not isinstance(version, bool) and version > SCHEMA_VERSION
         hint = "a newer curvcli wrote it; update curvcli, or write the report again" if newer else _HINT
         raise InputError(f"schema_version {version!r} found, {SCHEMA_VERSION} expected", hint=hint)
     try:
-        return as_dict(msgspec.convert(found, Report))
+        return as_dict(msgspec.convert(tree, Report))
     except msgspec.ValidationError as error:
         raise InputError(f"a damaged report: {error}", hint=_HINT) from None

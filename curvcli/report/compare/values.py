@@ -96,45 +96,49 @@ def compare_reports(
     a, b: reports as `Analysis.report()` gives them. wanted: chooses dotted keys such as `totals.K`. common: leave out
     keys that only one of them has. Paths, hashes, versions, timings and the numbers inside checks are not compared.
     """
-    one, other = dict(leaves(a)), dict(leaves(b))
+    leaves_a, leaves_b = dict(leaves(a)), dict(leaves(b))
     for listed in ("components", "loops"):
         if len(a[listed]) != len(b[listed]):  # the count shows it; the entries have no partners
-            one, other = ({k: v for k, v in side.items() if k[0] != listed or k[1] == "count"} for side in (one, other))
-    found: list[Difference] = []
+            leaves_a, leaves_b = (
+                {k: v for k, v in side.items() if k[0] != listed or k[1] == "count"} for side in (leaves_a, leaves_b)
+            )
+    differences: list[Difference] = []
     compared = 0
     absent: set[str] = set()
-    for key in dict.fromkeys([*one, *other]):
+    for key in dict.fromkeys([*leaves_a, *leaves_b]):
         if not wanted(dotted(key)):
             continue
-        if key in one and key in other:
+        if key in leaves_a and key in leaves_b:
             compared += 1
-            difference = _compared(key, one[key], other[key], tolerance)
-            found += [difference] if difference else []
+            difference = _compared(key, leaves_a[key], leaves_b[key], tolerance)
+            differences += [difference] if difference else []
         elif not common:
-            lacking = other if key in one else one
+            lacking = leaves_b if key in leaves_a else leaves_a
             name = dotted(key if any(there[:2] == key[:2] for there in lacking) else key[:2])
             if name not in absent:
                 absent.add(name)
-                found.append(Difference(name, "absent_in_b" if key in one else "absent_in_a", None, None, None, None))
-    return found, compared
+                differences.append(
+                    Difference(name, "absent_in_b" if key in leaves_a else "absent_in_a", None, None, None, None)
+                )
+    return differences, compared
 
 
 def _compared(key: Key, a: Leaf, b: Leaf, tolerance: Tolerance) -> Difference | None:
     if a.value == b.value:
         return None
-    one, other = _numbers(a.value), _numbers(b.value)
-    if a.typical is None or b.typical is None or one is None or other is None or len(one) != len(other):
+    first, second = _numbers(a.value), _numbers(b.value)
+    if a.typical is None or b.typical is None or first is None or second is None or len(first) != len(second):
         return Difference(dotted(key), "changed", a.value, b.value, None, None)
-    size = max(math.hypot(*one), math.hypot(*other), a.typical, b.typical) if tolerance.rtol > 0 else 0.0
+    size = max(math.hypot(*first), math.hypot(*second), a.typical, b.typical) if tolerance.rtol > 0 else 0.0
     allowed = tolerance.allowed(size, max(a.noise, b.noise))
-    moved = math.dist(one, other)
+    moved = math.dist(first, second)
     return None if moved <= allowed else Difference(dotted(key), "moved", a.value, b.value, moved, allowed)
 
 
 def _numbers(value: Any) -> list[float] | None:
-    parts = value if isinstance(value, list) else [value]
-    numeric = all(isinstance(part, int | float) and not isinstance(part, bool) for part in parts)
-    return [float(part) for part in parts] if numeric else None
+    components = value if isinstance(value, list) else [value]
+    numeric = all(isinstance(part, int | float) and not isinstance(part, bool) for part in components)
+    return [float(part) for part in components] if numeric else None
 
 
 def leaves(report: Mapping[str, Any]) -> Iterator[tuple[Key, Leaf]]:

@@ -15,21 +15,23 @@ if TYPE_CHECKING:
     from ..accuracy import Accuracy
 
 
-def show(found: Accuracy) -> None:
+def show(accuracy: Accuracy) -> None:
     """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
     console = report_console(120)
-    console.print(f"mesh [bold]{escape(found.mesh.path)}[/bold], exact values [bold]{escape(found.exact.path)}[/bold]")
-    for note in found.notes:
+    console.print(
+        f"mesh [bold]{escape(accuracy.mesh.path)}[/bold], exact values [bold]{escape(accuracy.exact.path)}[/bold]"
+    )
+    for note in accuracy.notes:
         console.print(f"[yellow]note[/yellow] {escape(note)}")
-    show_configuration(console, found.configuration)
-    console.print(fitting(console, _errors(found)))
-    if found.unmatched:
-        console.print(f"[dim]without an exact value: {', '.join(map(escape, found.unmatched))}[/dim]")
-    if not found.equal:
-        console.print(f"[bold red]FAIL[/bold red]: a relative L2 error is above {found.rtol:g}")
+    show_configuration(console, accuracy.configuration)
+    console.print(fitting(console, _errors(accuracy)))
+    if accuracy.unmatched:
+        console.print(f"[dim]without an exact value: {', '.join(map(escape, accuracy.unmatched))}[/dim]")
+    if not accuracy.equal:
+        console.print(f"[bold red]FAIL[/bold red]: a relative L2 error is above {accuracy.rtol:g}")
 
 
-def _errors(found: Accuracy) -> Iterator[Table]:
+def _errors(accuracy: Accuracy) -> Iterator[Table]:
     """Error norms of each column; fewer of them where the terminal is narrow."""
     every = ("relative L2", "Linf", "at vertex", "RMS", "bias", "relative", "null", "compared")
     both = ("column", "against")
@@ -43,8 +45,8 @@ def _errors(found: Accuracy) -> Iterator[Table]:
     ):
         table = make(*names)
         add_numbers(table, *numbers)
-        for name, row in found.errors.items():
-            late = found.rtol is not None and row.relative_l2 is not None and row.relative_l2 > found.rtol
+        for name, row in accuracy.errors.items():
+            late = accuracy.rtol is not None and row.relative_l2 is not None and row.relative_l2 > accuracy.rtol
             relative = format_rounded(row.relative_l2, 3, "")
             cells = {
                 "column": name,

@@ -22,24 +22,26 @@ _NAME = 24
 _ABSENT = {"absent_in_a": "only in B", "absent_in_b": "only in A"}
 
 
-def show(found: Comparison, verbose: int = 0) -> None:
+def show(comparison: Comparison, verbose: int = 0) -> None:
     """Print the summary to stdout; rich where it is a terminal, plain text in a pipe."""
     console = report_console(120)
-    console.print(f"A [bold]{escape(found.a.path)}[/bold] ({found.a.kind})")
-    console.print(f"B [bold]{escape(found.b.path)}[/bold] ({found.b.kind})")
-    for note in found.notes:
+    console.print(f"A [bold]{escape(comparison.a.path)}[/bold] ({comparison.a.kind})")
+    console.print(f"B [bold]{escape(comparison.b.path)}[/bold] ({comparison.b.kind})")
+    for note in comparison.notes:
         console.print(f"[yellow]note[/yellow] {escape(note)}")
-    show_configuration(console, found.configuration)
-    limits = f"rtol {found.rtol:g}, atol {found.atol:g}"
-    if found.equal:
-        console.print(f"[green]same[/green]: {found.compared:,} values compared, none differs beyond {limits}")
+    show_configuration(console, comparison.configuration)
+    limits = f"rtol {comparison.rtol:g}, atol {comparison.atol:g}"
+    if comparison.equal:
+        console.print(f"[green]same[/green]: {comparison.compared:,} values compared, none differs beyond {limits}")
         return
-    console.print(fitting(console, _moved(found, verbose)))
-    count = len(found.differences) + len(found.columns)
-    console.print(f"[bold red]DIFFERENT[/bold red]: {count:,} of {found.compared:,} values compared, beyond {limits}")
+    console.print(fitting(console, _moved(comparison, verbose)))
+    count = len(comparison.differences) + len(comparison.columns)
+    console.print(
+        f"[bold red]DIFFERENT[/bold red]: {count:,} of {comparison.compared:,} values compared, beyond {limits}"
+    )
 
 
-def _moved(found: Comparison, verbose: int) -> Iterator[Table]:
+def _moved(comparison: Comparison, verbose: int) -> Iterator[Table]:
     """A row for each difference; on a narrow terminal the values are below its name, so that no digit is lost."""
     wide, narrow = roomy_table(), plain_table("value", fold=_NAME)
     for header in ("value", "A", "B", "moved", "allowed"):
@@ -51,18 +53,18 @@ def _moved(found: Comparison, verbose: int) -> Iterator[Table]:
         wide.add_row(name, a, b, moved, allowed)
         narrow.add_row(f"{name}\n  A {a}\n  B {b}", moved, allowed)
 
-    for d in found.differences[: None if verbose else _SHOWN]:
+    for d in comparison.differences[: None if verbose else _SHOWN]:
         cells = (
             (_ABSENT[d.status], "")
             if d.status in _ABSENT
             else (format_rounded(d.moved, 2, "changed"), format_rounded(d.allowed, 2, ""))
         )
         add(escape(d.key), escape(as_text(d.a)), escape(as_text(d.b)), *cells)
-    hidden = len(found.differences) - _SHOWN
+    hidden = len(comparison.differences) - _SHOWN
     if hidden > 0 and not verbose:
         for table in (wide, narrow):
             table.add_row(f"[dim]… {hidden:,} more: -v[/dim]")
-    for c in found.columns:
+    for c in comparison.columns:
         where = f"vertices.{c.name}: {c.differing:,} of {c.rows:,}, most at vertex {c.vertex}"
         add(
             escape(where),

@@ -20,8 +20,8 @@ def show(report: CurveReport, verbose: int = 0) -> None:
     """Print a table of the curves and their identities; rich where stdout is a terminal, plain in a pipe."""
     console = report_console(120)
     boundary = sum(row.kind == "boundary" for row in report.curves)
-    words = f"{counted(boundary, 'boundary curve')}, {counted(len(report.curves) - boundary, 'polyline')}"
-    console.print(f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {words}")
+    counts = f"{counted(boundary, 'boundary curve')}, {counted(len(report.curves) - boundary, 'polyline')}"
+    console.print(f"[bold]{escape(report.input.path or 'arrays in memory')}[/bold]  {counts}")
     for remark in report.warnings:
         hint = f"; {remark.hint}" if remark.hint else ""
         console.print(f"[yellow]warning[/yellow] {remark.code}: {remark.count:,} {escape(remark.message + hint)}")
@@ -57,7 +57,7 @@ def _curves(rows: list[CurveRow]) -> Iterator[Table]:
             table.add_column("knot", no_wrap=True)
         for row in rows:
             cells = {"curve": str(row.curve), "kind": row.kind, "closed": "closed" if row.closed else "open"}
-            found = {
+            values = {
                 "length": row.length,
                 "Σψ": row.total_curvature,
                 "turns": row.turning_number,
@@ -65,7 +65,7 @@ def _curves(rows: list[CurveRow]) -> Iterator[Table]:
                 "writhe": row.writhe,
                 "holonomy": row.holonomy,
             }
-            cells |= {"vertices": f"{row.vertices:,}"} | {key: _number(value, digits) for key, value in found.items()}
+            cells |= {"vertices": f"{row.vertices:,}"} | {key: _number(value, digits) for key, value in values.items()}
             knot = ("unknotted" if row.unknotted else "",) if knots else ()
             table.add_row(*(cells[name] for name in (*names, *chosen)), *knot)
         yield table

@@ -105,13 +105,13 @@ def _statements(
         recognised = True
     if not recognised and not counted["ignored_statements"]:
         raise InputError("no OBJ record found; lines that begin with `v` and `f` expected")
-    for code, found in counted.items():
-        if found:
-            words = ", ".join(f"`{decode(word[:20])}`" for word in list(found)[:5])
+    for code, positions in counted.items():
+        if positions:
+            names_listed = ", ".join(f"`{decode(word[:20])}`" for word in list(positions)[:5])
             what = "free-form, point or drawing" if code == "ignored_statements" else "unknown"
-            first = lines.place(min(where[0] for where in found.values()))
-            total = sum(map(len, found.values()))
-            message = f"{what} {pluralize(total, '[statement|statements]')}, ignored: {words}"
+            first = lines.place(min(where[0] for where in positions.values()))
+            total = sum(map(len, positions.values()))
+            message = f"{what} {pluralize(total, '[statement|statements]')}, ignored: {names_listed}"
             notices.append(Notice(code, total, message, f"the first is in {first}"))
     return {kind: (np.array(where, np.int64), names[kind]) for kind, where in at.items()}
 
@@ -135,8 +135,8 @@ def _vertices(
     too_few = np.flatnonzero(np.broadcast_to(np.asarray(sizes) < 3, count))
     if len(too_few):
         line = int(np.flatnonzero(is_v)[too_few[0]])
-        found = int(np.broadcast_to(sizes, count)[too_few[0]])
-        raise InputError(f"`v` record with {number_of(found, 'number')}, at least 3 expected", place=lines.place(line))
+        size = int(np.broadcast_to(sizes, count)[too_few[0]])
+        raise InputError(f"`v` record with {number_of(size, 'number')}, at least 3 expected", place=lines.place(line))
     xyz = np.empty((3, count))
     for k in range(3):
         xyz[k] = _column(records, k)

@@ -99,9 +99,9 @@ def parse_header(data: bytes) -> Header:
     elements: list[tuple[str, int, list[PlyProperty]]] = []
     unknown: list[int] = []
     for number, line in enumerate(lines, 2):
-        words = [decode(word) for word in line.split()]
+        tokens = [decode(word) for word in line.split()]
         place = f"line {number}"
-        match words:
+        match tokens:
             case [] | ["comment" | "obj_info", *_]:
                 continue
             case ["format", *_] if order:
@@ -124,7 +124,7 @@ def parse_header(data: bytes) -> Header:
             case [str(keyword), *_] if not elements and keyword not in ("format", "element", "property", "end_header"):
                 unknown.append(number)
             case _:
-                raise InputError(f"`{' '.join(words)[:60]}` found, a PLY header statement expected", place=place)
+                raise InputError(f"`{' '.join(tokens)[:60]}` found, a PLY header statement expected", place=place)
     if order is None:
         raise InputError("no `format` found in the PLY header")
     _once("element", [name for name, _, _ in elements])
@@ -142,7 +142,7 @@ def parse_header(data: bytes) -> Header:
 
 
 def _once(what: str, names: list[str]) -> None:
-    name, times = max(Counter(names).items(), key=lambda found: found[1], default=("", 1))
+    name, times = max(Counter(names).items(), key=lambda count: count[1], default=("", 1))
     if times > 1:
         raise InputError(f"{what} `{name[:40]}` announced {times} times, once expected", place="header")
 

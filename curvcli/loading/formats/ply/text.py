@@ -87,18 +87,18 @@ def _read(
 
 def _same_layout(rows: _TextRows) -> ElementColumns | None:
     """Read rows with lists as long as in the first row; None if their lengths differ."""
-    words = rows.text[: rows.text.index(b"\n")].split()
+    tokens = rows.text[: rows.text.index(b"\n")].split()
     layout, at = [], 0
     for p in rows.element.properties:
         length = 1
         if p.length is not None:
-            if at >= len(words) or not words[at].isdigit():
+            if at >= len(tokens) or not tokens[at].isdigit():
                 return None
-            length = int(words[at])
+            length = int(tokens[at])
             at += 1
         layout.append((at, length))
         at += length
-    if at != len(words) or at > 64:
+    if at != len(tokens) or at > 64:
         return None
     whole = all(p.type.kind != "f" for p in rows.element.properties)
     columns = read_columns(rows.text, at, np.int32 if whole else np.float64)

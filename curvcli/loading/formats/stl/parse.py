@@ -188,6 +188,6 @@ def _check_facets(facets: NDArray[np.intp], vertices: NDArray[np.intp]) -> None:
     per_facet = np.diff(np.searchsorted(vertices, facets), append=len(vertices))
     wrong = np.flatnonzero(per_facet != 3)
     if len(wrong):
-        found = int(per_facet[wrong[0]])
+        count = int(per_facet[wrong[0]])
         place = f"line {int(facets[wrong[0]]) + 1}"
-        raise InputError(f"facet with {number_of(found, 'vertex', 'vertices')} found, 3 expected", place=place)
+        raise InputError(f"facet with {number_of(count, 'vertex', 'vertices')} found, 3 expected", place=place)

@@ -31,7 +31,7 @@ def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.fl
     """
     if b"#" in text:
         # The name on a `solid` line may contain the comment mark: a comment on it is recognised behind a facet only.
-        text = _FACETS.sub(lambda found: _COMMENT.sub(b"", found[0]), text)
+        text = _FACETS.sub(lambda match: _COMMENT.sub(b"", match[0]), text)
     tokens = _Tokens.of(text)
     every = np.arange(len(tokens.starts))
     facets = every[tokens.are(every, b"facet")]
@@ -50,8 +50,8 @@ def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.fl
     wrong = np.flatnonzero(~whole)
     wrong = wrong[(first_wrong[wrong] > 0) | ~tokens.in_name(facets[wrong], end)]
     if len(wrong):
-        places, word = expected[first_wrong[wrong[0]]]
-        raise tokens.unexpected(int(places[wrong[0]]), word.decode())
+        positions, word = expected[first_wrong[wrong[0]]]
+        raise tokens.unexpected(int(positions[wrong[0]]), word.decode())
     check_faces(len(begin), max_faces)
     notices = _between(tokens, begin, end)
     corners = (loops[whole] + 3)[:, None] + np.arange(3) * _VERTEX
@@ -76,38 +76,38 @@ class _Tokens:
         first[1:] &= ends[:-1]
         return cls(text, data, np.flatnonzero(first), ends)
 
-    def are(self, places: Offsets, word: bytes) -> NDArray[np.bool_]:
+    def are(self, tokens: Offsets, word: bytes) -> NDArray[np.bool_]:
         """Mask of the tokens equal to a word, in any case."""
-        same = places < len(self.starts)
+        same = tokens < len(self.starts)
         if not same.any():
             return same
-        at = self.starts[np.minimum(places, len(self.starts) - 1)]
+        at = self.starts[np.minimum(tokens, len(self.starts) - 1)]
         for k, letter in enumerate(word):
             same &= (self.data.take(at + k, mode="clip") | 32) == letter
         return np.asarray(same & self.ends.take(at + len(word), mode="clip"))
 
-    def numbers(self, places: Offsets) -> NDArray[np.float64]:
+    def numbers(self, tokens: Offsets) -> NDArray[np.float64]:
         """The tokens at these ascending places as numbers."""
-        if not len(places):
+        if not len(tokens):
             return np.empty(0)
         wanted = np.zeros(len(self.starts), np.bool_)
-        wanted[places] = True
+        wanted[tokens] = True
         kept = np.zeros(len(self.data), np.bool_)
         kept[self.starts[0] :] = np.repeat(wanted, np.diff(self.starts, append=len(self.data)))
         kept[1:] &= ~(self.ends[1:] & self.ends[:-1])
         numbers, known = read_tokens(bytes(np.where(self.data[kept] == BLANK, NEWLINE, self.data[kept])), np.float64)
         if not known.all():
-            raise self.unexpected(int(places[np.flatnonzero(~known)[0]]), "")
+            raise self.unexpected(int(tokens[np.flatnonzero(~known)[0]]), "")
         return np.asarray(numbers, np.float64)
 
-    def in_name(self, places: Offsets, end: Offsets) -> NDArray[np.bool_]:
+    def in_name(self, tokens: Offsets, end: Offsets) -> NDArray[np.bool_]:
         """Mask of the tokens behind `solid` or `endsolid` on their line, without the end of a facet between them."""
         every = np.arange(len(self.starts))
         named = np.append(-1, every[self.are(every, _NAMES[0]) | self.are(every, _NAMES[1])])
-        name = named[np.searchsorted(named, places) - 1]
-        since = np.append(0, end)[np.searchsorted(end, places, side="right")]
+        name = named[np.searchsorted(named, tokens) - 1]
+        since = np.append(0, end)[np.searchsorted(end, tokens, side="right")]
         newlines = np.flatnonzero(self.data == NEWLINE)
-        lines = [np.searchsorted(newlines, self.starts[np.maximum(some, 0)]) for some in (name, places)]
+        lines = [np.searchsorted(newlines, self.starts[np.maximum(some, 0)]) for some in (name, tokens)]
         return np.asarray((name >= since) & (lines[0] == lines[1]))
 
     def line(self, offset: int) -> str:
@@ -120,8 +120,8 @@ class _Tokens:
         if place >= len(self.starts):
             return InputError(f"the data end inside a facet; {asked}", place=self.line(int(self.starts[-1])))
         offset = int(self.starts[place])
-        found = self.text[offset : offset + 200].split()[0][:40].decode("utf-8", "backslashreplace")
-        return InputError(f"`{found}` found, {asked}", place=self.line(offset))
+        token = self.text[offset : offset + 200].split()[0][:40].decode("utf-8", "backslashreplace")
+        return InputError(f"`{token}` found, {asked}", place=self.line(offset))
 
 
 def _between(tokens: _Tokens, begin: Offsets, end: Offsets) -> list[Notice]:
@@ -137,12 +137,12 @@ def _between(tokens: _Tokens, begin: Offsets, end: Offsets) -> list[Notice]:
         last = text[offset : bounds[right[gap]]].lower()
         named = naming = False
         for line in last.split(b"\n"):
-            if found := _PART.match(line):
-                part = (found[1] or found[0]).decode()
+            if match := _PART.match(line):
+                part = (match[1] or match[0]).decode()
                 raise InputError(f"`{part}` outside a facet found", place=tokens.line(offset))
-            if (words := line.split(b" ", 1))[0] in _NAMES:
+            if (tokens_of_line := line.split(b" ", 1))[0] in _NAMES:
                 # If its line has no name, the next lines have it.
-                named, naming = True, len(words) == 1
+                named, naming = True, len(tokens_of_line) == 1
             else:
                 unknown += bool(line) and not naming
             offset += len(line) + 1
