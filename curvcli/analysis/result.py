@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks.base import Check, CheckRule
+from ..checks.base import SHARES, Check, CheckRule
 from ..checks.catalogue import identities
+from ..checks.partition import Share
 from ..checks.summary import summarise_checks
 from ..curvatures.catalogue import at_scales
 from ..curvatures.engine import evaluate, in_file_unit, prepare, schedule
@@ -24,12 +25,13 @@ from ..loading.load import as_surface
 from ..mesh.groups import Groups
 from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Surface
-from ..support.arrays import Array, or_none
+from ..support.arrays import Array, Floats, or_none
 from . import notices as findings
 from .by_region import on_faces, with_regions
 from .columns import Columns, named
 from .request import Request
 from .resolution import beside, of_stars, unscaled
+from .shares import Partition
 from .totals import lost, lost_totals, summed, totals
 
 if TYPE_CHECKING:
@@ -82,7 +84,7 @@ class Result:
         if regions is not None:
             cut, self.cut_groups = cut_along_regions(surface, regions)
             alone = replace(request, regions=None, parameters=None, passes=tuple(self.chosen), besides=())
-            names = [rule.name for rule in self._rules]
+            names = [rule.name for rule in self._rules if not rule.of_shares]
             self.cut = Result(cut, alone, checks=names, settings=on_faces(self.settings, regions.face >= 0))
 
     @cached_property
@@ -182,20 +184,38 @@ class Result:
     @cached_property
     def checks(self) -> list[Check]:
         """Every identity that the chosen passes allow to be tested, on the whole and on each component."""
-        checks = [check for rule in self._rules for check in rule.run(self.surface, self.surface.whole, self.columns)]
+        checks = self._checked(self.surface.whole)
         if self.surface.components.count > 1:
             checks += self._checked(self.surface.components)
         if self.cut is not None:
             checks += self.cut._checked(self.cut_groups)
+            for rule in self._rules:
+                checks += rule.run(self.surface, self.surface.whole, {SHARES: self.shares}) if rule.of_shares else []
         return checks
+
+    @cached_property
+    def shares(self) -> list[Share]:
+        """Shares of every total by region, and of the faces without one; none without regions."""
+        if self.regions is None:
+            return []
+        parts = Partition(self.surface, self.regions.face, self.regions.count, self.columns["face_area"])
+        return parts.shares({name: self.columns[name] for name in self._totalled})
 
     def _checked(self, groups: Groups) -> list[Check]:
         """Checks of every group; of very many groups, those that fail."""
         checks: list[Check] = []
         for rule in self._rules:
-            each = rule.run(self.surface, groups, self.columns)
+            each = [] if rule.of_shares else rule.run(self.surface, groups, self.columns)
             checks += each if groups.count <= LISTED_GROUPS else summarise_checks(each, f"{groups.kind}s")
         return checks
+
+    def shares_of_regions(self) -> dict[str, Floats]:
+        """Shares of every total by region, (R,) or (R, 3), in the file's unit and the chosen convention for H."""
+        found: dict[str, Floats] = {}
+        for share in self.shares:
+            shown = self.surface.in_file_unit(share.values[:-1], share.length_exponent)
+            found[share.key] = shown * 0.5**share.mean_degree if self.request.mean == "average" else shown
+        return found
 
     @property
     def passed(self) -> bool:

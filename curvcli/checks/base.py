@@ -18,6 +18,9 @@ from ..support.arrays import Floats, Mask, Value, or_none
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
 
+# The parameter of a check of the shares of regions, which runs once, on the whole surface.
+SHARES = "shares"
+
 # One text for all groups, or a text per group.
 Words = str | Callable[[int], str]
 
@@ -70,7 +73,8 @@ class CheckRule:
     """A registered check: a function of the surface, the groups and the quantities that its parameters name.
 
     statement: the identity. gap: the residual as failures name it. applies: the condition for a test.
-    bound: the derivation of the tolerance. failure: the meaning of a failure.
+    bound: the derivation of the tolerance. failure: the meaning of a failure. of_shares: it compares the shares of all
+    regions with the totals of the whole, and runs only where there are regions.
     """
 
     name: str
@@ -81,6 +85,7 @@ class CheckRule:
     applies: str = ""
     bound: str = ""
     failure: str = ""
+    of_shares: bool = False
 
     def __reduce__(self) -> tuple[Callable[[str, str], CheckRule], tuple[str, str]]:
         """Pickle a rule by its name."""
@@ -88,7 +93,8 @@ class CheckRule:
 
     def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
         """Evaluate the check on every group."""
-        outcome = self.function(surface, groups, *(columns[name] for name in self.needs))
+        given = [columns[name] for name in ((SHARES,) if self.of_shares else self.needs)]
+        outcome = self.function(surface, groups, *given)
         with np.errstate(invalid="ignore"):  # infinite sides
             gap = outcome.value - outcome.expected
         residual = outcome.residual
@@ -136,9 +142,11 @@ def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Call
     """
 
     def register(function: Callable[..., IdentityValues]) -> CheckRule:
-        needs = tuple(inspect.signature(function).parameters)[2:]
+        parameters = tuple(inspect.signature(function).parameters)[2:]
+        of_shares = SHARES in parameters
+        needs = () if of_shares else parameters
         statement = inspect.cleandoc(function.__doc__ or "")
-        rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure)
+        rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure, of_shares)
         registered[rule.name] = rule
         return rule
 

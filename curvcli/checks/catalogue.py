@@ -20,6 +20,7 @@ BUILT_IN = (
     "variation",
     "first_variation",
     "dirichlet",
+    "partition",
 )
 
 

@@ -124,7 +124,7 @@ class CheckRun:
         self.output, self.force, self.quiet, self.verbose = output, force, quiet, verbose
         self.format = report_format or _SUFFIXES.get(os.path.splitext(output)[1].lower(), "text")
         scales = parse_scales(conventions["rings"], conventions["radius"])
-        self.plan = plan(require, allow, asserted, scales)
+        self.plan = plan(require, allow, asserted, scales, conventions["regions"] is not None)
 
     def all(self) -> int:
         """Check every mesh and write the report; return the exit code."""

@@ -110,8 +110,25 @@ def _components(analysis: Result) -> list[Piece]:
 def _regions(analysis: Result) -> list[Piece]:
     if analysis.cut is None:
         return []
-    columns = listed_statistics(analysis.cut, analysis.cut_groups, analysis.request.statistics)
-    return pieces(analysis.cut, analysis.cut_groups, columns)
+    return [
+        replace(piece, columns=columns)
+        for piece, columns in zip(
+            region_pieces(analysis),
+            listed_statistics(analysis.cut, analysis.cut_groups, analysis.request.statistics),
+            strict=True,
+        )
+    ]
+
+
+def region_pieces(analysis: Result) -> list[Piece]:
+    """Topology, totals, shares and further values of each region."""
+    if analysis.cut is None:
+        return []
+    shares = {key: _json_list(values) for key, values in analysis.shares_of_regions().items()}
+    return [
+        replace(piece, shares={key: values[region] for key, values in shares.items()})
+        for region, piece in enumerate(pieces(analysis.cut, analysis.cut_groups))
+    ]
 
 
 @cached

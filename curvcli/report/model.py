@@ -102,7 +102,8 @@ class Normals(msgspec.Struct):
 class Piece(msgspec.Struct, omit_defaults=True):
     """The whole surface, one component or one region of it; `name` of a region.
 
-    columns: the statistics of each column, of regions, and of components where --stat names some.
+    columns: the statistics of each column, of regions, and of components where --stat names some. shares: of a region,
+    the parts of the totals of the whole that belong to its faces; they add up to the whole, as totals do not.
     """
 
     topology: Topology
@@ -111,6 +112,7 @@ class Piece(msgspec.Struct, omit_defaults=True):
     cmc: Cmc | msgspec.UnsetType = msgspec.UNSET
     minimal: Minimal | msgspec.UnsetType = msgspec.UNSET
     normals: Normals | msgspec.UnsetType = msgspec.UNSET
+    shares: dict[str, Value] | msgspec.UnsetType = msgspec.UNSET
     columns: dict[str, Statistics] | msgspec.UnsetType = msgspec.UNSET
     name: str | msgspec.UnsetType = msgspec.UNSET
 

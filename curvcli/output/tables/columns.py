@@ -99,9 +99,9 @@ def component_table(analysis: Result) -> Table:
 
 def region_table(analysis: Result) -> Table:
     """One row per region, by its label: topology, totals and the rest of the report; no rows without `--regions`."""
-    from ...report.build import pieces
+    from ...report.build import region_pieces
 
-    rows = [] if analysis.cut is None else pieces(analysis.cut, analysis.cut_groups)
+    rows = region_pieces(analysis)
     names = () if analysis.regions is None else analysis.regions.names
     table = {"region": _words(names)} | _piece_columns(rows)
     if analysis.cut is not None:
@@ -136,10 +136,11 @@ def _piece_columns(pieces: list[Piece]) -> Table:
         each = [getattr(piece, section) for piece in pieces]
         if isinstance(first, str):
             table[section] = _words(each)
-        elif section == "totals":
+        elif section in ("totals", "shares") and isinstance(first, dict):
             vectors = {quantity.total for quantity in passes.totals() if quantity.vector}
             for key in first:
-                table |= _numbers(key, [totals[key] for totals in each], "xyz" if key in vectors else ())
+                name = key if section == "totals" else f"share_{key}"
+                table |= _numbers(name, [values[key] for values in each], "xyz" if key in vectors else ())
         elif isinstance(first, msgspec.Struct):
             for key, declared in get_type_hints(type(first), include_extras=True).items():
                 name = key if section == "topology" else f"{section}_{key}"

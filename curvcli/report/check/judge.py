@@ -58,11 +58,12 @@ def plan(
     allow: Iterable[str] = (),
     asserted: Iterable[str] = (),
     scales: tuple[Scale, ...] = (),
+    regions: bool = False,
 ) -> Plan:
     """All identities and the default requirements, plus `require` and `asserted`, without those in `allow`.
 
     require, allow: names or comma lists of names. asserted: `STAT(COLUMN) OP NUMBER`. scales: at which estimates are
-    made; of several, each has columns of its own.
+    made; of several, each has columns of its own. regions: the meshes are divided into regions.
     Errors: UsageError for an unknown name, with the nearest.
     """
     load_passes()  # plug-ins may bring identities of their own
@@ -73,7 +74,7 @@ def plan(
         raise UsageError(f"cannot allow {name!r}: no such requirement or identity{way_out}")
     wanted = parse([*defaults(), *require])
     return Plan(
-        tuple(name for name in identities() if name not in allowed),
+        tuple(name for name, rule in identities().items() if name not in allowed and (regions or not rule.of_shares)),
         tuple(required for required in wanted if required.requirement.name not in allowed),
         tuple(dict.fromkeys(assertions.parse(text, scales) for text in asserted)),
     )
