@@ -211,11 +211,11 @@ class Result:
 
     def shares_of_regions(self) -> dict[str, Floats]:
         """Shares of every total by region, (R,) or (R, 3), in the file's unit and the chosen convention for H."""
-        found: dict[str, Floats] = {}
+        shares: dict[str, Floats] = {}
         for share in self.shares:
-            shown = self.surface.in_file_unit(share.values[:-1], share.length_exponent)
-            found[share.key] = shown * 0.5**share.mean_degree if self.request.mean == "average" else shown
-        return found
+            values = self.surface.in_file_unit(share.values[:-1], share.length_exponent)
+            shares[share.key] = values * 0.5**share.mean_degree if self.request.mean == "average" else values
+        return shares
 
     @property
     def passed(self) -> bool:
