@@ -13,7 +13,7 @@ from ..loading.registry import input_formats
 if TYPE_CHECKING:
     from ..output.appearance import Appearance
 
-_CUT = ", ".join(format.title for format in input_formats().values() if format.separate_corners)
+_CUT = ", ".join(format.title for format in input_formats().values() if format.separate_corners or format.seams)
 """Formats whose files give each triangle corners of its own."""
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]

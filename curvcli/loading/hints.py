@@ -13,7 +13,6 @@ _VTK = (
     """`python -c "import pyvista; pyvista.read('{path}').extract_surface().save('OUT.ply')"` converts it """
     "(`pip install 'curvcli[pictures]'`)"
 )
-_TRIMESH = """`python -c "import trimesh; trimesh.load_mesh('{path}').export('OUT.ply')"` converts it"""
 _NIBABEL = (
     """`python -c "import nibabel, trimesh; trimesh.Trimesh(*nibabel.{reader}, process=False).export('OUT.ply')"` """
     "converts it (`pip install nibabel`)"
@@ -32,7 +31,6 @@ _TABLE = "`curvcli compare` reads reports and tables"
 _WAYS_OUT = {
     **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "msh", "nas", "tec", "vol"), _MESHIO),
     **dict.fromkeys(("vtk", "vtp", "vtu"), _VTK),
-    **dict.fromkeys(("glb", "gltf"), _TRIMESH),
     "gii": _GIFTI,
     **dict.fromkeys(("inflated", "orig", "pial", "smoothwm", "sphere", "white"), _FREESURFER),
     **dict.fromkeys(("step", "stp", "iges", "igs", "brep"), _GMSH),

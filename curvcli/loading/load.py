@@ -24,8 +24,8 @@ def load(
 ) -> Surface:
     """Read a mesh file as the surface it describes: rows in file order, seams never cut, nothing repaired.
 
-    weld: `auto` (by exact position where triangles share no vertices in the file, as in STL, otherwise not at all),
-    `none`, `exact`, or a tolerance relative to the diagonal of the bounding box. orient: `outward` turns closed patches
+    weld: `auto` (by exact position where the format cuts surfaces, as STL and GLB do, otherwise not at all), `none`,
+    `exact`, or a tolerance relative to the diagonal of the bounding box. orient: `outward` turns closed patches
     that are inside out. normals: `file` also reads normals, texture texture coordinates, where the format has records
     of them, as OBJ does; those of a PLY file are among its properties.
     Errors: InputError, one line with file, place, expectation and way out; TypeError for no path and no stream.

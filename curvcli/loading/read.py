@@ -35,8 +35,8 @@ def read_mesh_file(
     """The content of a mesh file, in file order, with the hash of its bytes.
 
     source: a path, or a binary stream (its path is reported as `-`). input_format: the name of a format instead of the
-    suffix. weld: `auto` (exact for formats whose triangles share no vertices, none otherwise), `none`, `exact`, or a
-    tolerance relative to the diagonal of the bounding box. max_faces, max_bytes: refuse larger files. normals: `file`
+    suffix. weld: `auto` (exact for formats that cut surfaces, such as STL and GLB, none otherwise), `none`, `exact`, or
+    a tolerance relative to the diagonal of the bounding box. max_faces, max_bytes: refuse larger files. normals: `file`
     also reads those that records of the file give, texture its texture coordinates.
     Errors: InputError, one line that names the file, the place, what was found and what was expected; UsageError for
     an unknown format or way of welding; MissingExtraError for a format whose library is not installed.
@@ -82,6 +82,7 @@ def _read(
             raise InputError("no data found, a mesh expected")
         format, notices = recognise(pieces, kind, by_name=input_format is None)
         format.require()
+        weld = "exact" if weld == "auto" and format.seams else weld
         exact = format.separate_corners and weld in ("auto", "exact")
         # Not during the import of trimesh: that took longer, by 4 % for 100,000 vertices of OBJ and 11 % of PLY.
         try:

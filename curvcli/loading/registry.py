@@ -39,8 +39,10 @@ class InputFormat:
     it. has_sign: tests for the sign of the format without taking bytes. weak_sign: text of other formats may have it
     too, so their signs are tested first. any_start: tests content of this size that begins like an archive or a web
     page; the last argument is True if the name promises the format. separate_corners: triangles share no vertices, so
-    `--weld auto` merges equal positions exactly. encodings, rows, digits, keeps, labels, polygons, curves: cells of the
-    table in docs/formats.md. library, extra: module that the parser needs, and the extra of curvcli that installs it.
+    `--weld auto` merges equal positions exactly. seams: vertices are cut where normals or texture jump, `--weld auto`
+    merges equal positions exactly, and their rows stay. encodings, rows, digits, keeps, labels, polygons, curves: cells
+    of the table in docs/formats.md. library, extra: module that the parser needs, and the extra of curvcli that
+    installs it.
     """
 
     name: str
@@ -50,6 +52,7 @@ class InputFormat:
     weak_sign: bool = False
     any_start: Callable[[bytes, int, bool], bool] | None = None
     separate_corners: bool = False
+    seams: bool = False
     encodings: str = "text"
     rows: str = "vertices"
     digits: str = "doubles"

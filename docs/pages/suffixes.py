@@ -22,7 +22,7 @@ _ROWS: dict[str, Callable[[InputFormat], str]] = {
     "encodings": lambda one: one.encodings,
     "rows of the vertex table": lambda one: one.rows,
     "digits": lambda one: one.digits,
-    "merged by default": lambda one: "equal positions" if one.separate_corners else "nothing",
+    "merged by default": lambda one: "equal positions" if one.separate_corners or one.seams else "nothing",
     "kept beside the results": lambda one: one.keeps,
     "labels for `--regions`": lambda one: one.labels,
     "polygons": lambda one: one.polygons,

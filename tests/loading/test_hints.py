@@ -47,15 +47,6 @@ def test_meshio_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> None
     assert read_mesh_file(tmp_path / "OUT.ply").polygons == 4
 
 
-@pytest.mark.parametrize("suffix", ["glb"])
-def test_trimesh_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> None:
-    path = tmp_path / f"part.{suffix}"
-    trimesh.Trimesh(POINTS, FACES, process=False).export(path)
-    message = refused(path)
-    run(message, tmp_path)
-    assert read_mesh_file(tmp_path / "OUT.ply").polygons == 4
-
-
 @pytest.mark.parametrize("suffix", ["vtp", "vtk", "vtu"])
 def test_pyvista_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> None:
     pyvista = pytest.importorskip("pyvista")

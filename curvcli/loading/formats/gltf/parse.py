@@ -1,0 +1,276 @@
+"""glTF: triangles of all nodes of the scene, decoded by trimesh, in the order of the file."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import io
+import struct
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from ....errors import InputError, Notice
+from ....mesh.file import MeshFile
+from ....support.words import number_of, pluralize
+from ...content import free_inflation
+from ...corners import checked_corners
+from ...limits import check_faces
+from ...pieces import Pieces
+from .labels import scene_labels
+from .scene import Matrix, placed_meshes, transformed
+from .tree import TRIANGLES, Primitive, Tree, check_accessor, check_primitive, embedded, parse_tree
+
+_HEADER, _CHUNK = struct.Struct("<4sII"), struct.Struct("<II")
+_JSON, _BIN = 0x4E4F534A, 0x004E4942
+_CHANNELS = ("red", "green", "blue", "alpha")
+_LARGEST = {"i1": 127, "u1": 255, "i2": 32767, "u2": 65535}
+# Bytes of a vertex and of a triangle in memory.
+_PER_VERTEX, _PER_TRIANGLE = 24, 12
+
+
+def parse_glb(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
+    """Parse binary glTF. Errors: InputError for chunks that do not fit; those of `_parse`."""
+    data = pieces.rest()
+    if len(data) < _HEADER.size + _CHUNK.size:
+        raise InputError(f"{number_of(len(data), 'byte')} found, the header of glTF has {_HEADER.size + _CHUNK.size}")
+    _, version, length = _HEADER.unpack_from(data)
+    if version != 2:
+        raise InputError(f"version {version} of binary glTF found, 2 expected")
+    if length > len(data):
+        raise InputError(f"{length} bytes announced, {len(data)} found: the file is truncated")
+    chunks = list(_chunks(data[:length]))
+    if not chunks or chunks[0][0] != _JSON:
+        raise InputError("no JSON found in the first chunk")
+    tree = parse_tree(chunks[0][1])
+    binary = next((content for kind, content in chunks[1:] if kind == _BIN), None)
+    notices = []
+    if rest := len(data) - length:
+        message = pluralize(rest, "[byte|bytes] after the announced length, ignored")
+        notices.append(Notice("trailing_data", rest, message))
+    return _parse(tree, binary, "glb", len(data), max_faces, notices)
+
+
+def parse_gltf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
+    """Parse glTF as text; buffers stand in data URIs. Errors: those of `_parse`."""
+    data = pieces.rest()
+    return _parse(parse_tree(data), None, "gltf", len(data), max_faces, [])
+
+
+def _chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
+    at = _HEADER.size
+    while at + _CHUNK.size <= len(data):
+        size, kind = _CHUNK.unpack_from(data, at)
+        at += _CHUNK.size
+        if at + size > len(data):
+            problem = f"a chunk of {number_of(size, 'byte')} announced, {len(data) - at} found"
+            raise InputError(problem, place=f"byte {at - _CHUNK.size}")
+        yield kind, data[at : at + size]
+        at += size
+
+
+def _buffers(tree: Tree, binary: bytes | None) -> list[bytes]:
+    """The bytes of all buffers. Errors: InputError for one in another file, or shorter than announced."""
+    buffers = []
+    for number, buffer in enumerate(tree.buffers):
+        if number == 0 and buffer.uri is None and binary is not None:
+            content = binary
+        else:
+            try:
+                content = base64.b64decode(embedded(buffer, number), validate=True)
+            except (binascii.Error, ValueError) as error:
+                raise InputError(f"damaged base64 data found ({error})", place=f"buffer {number}") from None
+        if len(content) < buffer.byte_length:
+            problem = f"{buffer.byte_length} bytes announced, {len(content)} found"
+            raise InputError(problem, place=f"buffer {number}")
+        buffers.append(content)
+    return buffers
+
+
+def _parse(
+    tree: Tree, binary: bytes | None, name: str, size: int, max_faces: int | None, notices: list[Notice]
+) -> MeshFile:
+    """Place the triangles of all meshes: rows are the positions of each node, once per array of positions.
+
+    Errors: InputError for wrong references, data outside the file, or so many copies of a mesh that they are out of
+    proportion to the file.
+    """
+    placed = placed_meshes(tree)
+    used = sorted({mesh for _, mesh, _ in placed})
+    parts: dict[int, list[Primitive]] = {}
+    for mesh in used:
+        primitives = tree.meshes[mesh].primitives
+        parts[mesh] = [one for one in primitives if one.mode >= TRIANGLES]
+        for k, primitive in enumerate(primitives):
+            if primitive.mode >= TRIANGLES:
+                check_primitive(tree, primitive, f"mesh {mesh}, primitive {k}")
+    _check_size(tree, parts, placed, size, max_faces)
+    buffers = _buffers(tree, binary)
+    arrays = _decoded(tree, parts, buffers)
+    return _assembled(tree, parts, placed, arrays, name, notices)
+
+
+def _check_size(
+    tree: Tree, parts: dict[int, list[Primitive]], placed: list[tuple[int, int, Matrix]], size: int, most: int | None
+) -> None:
+    faces = vertices = 0
+    for _, mesh, _ in placed:
+        for one in parts[mesh]:
+            position = tree.accessors[one.position].count
+            corners = position if one.indices is None else tree.accessors[one.indices].count
+            faces += corners // 3 if one.mode == TRIANGLES else max(0, corners - 2)
+        vertices += sum(tree.accessors[at].count for at in {one.position for one in parts[mesh]})
+    check_faces(faces, most)
+    if _PER_VERTEX * vertices + _PER_TRIANGLE * faces > free_inflation(size):
+        problem = f"copies of meshes with {number_of(faces, 'face')} in all found, too many for {size} bytes"
+        raise InputError(problem, hint="--max-faces sets a limit" if most is None else None)
+
+
+def _decoded(tree: Tree, parts: dict[int, list[Primitive]], buffers: list[bytes]) -> list[dict[str, Any]]:
+    """The arrays of all primitives in their order, by trimesh: a file with nothing but these is given to its loader."""
+    from trimesh.exchange.gltf import load_glb
+
+    kept: dict[int, int] = {}
+    meshes = []
+    for primitives in parts.values():
+        for one in primitives:
+            names = [*_extra(tree, one)]
+            attributes = {name: kept.setdefault(one.attributes[name], len(kept)) for name in ("POSITION", *names)}
+            reduced = {"attributes": attributes, "mode": one.mode}
+            if one.indices is not None:
+                reduced["indices"] = kept.setdefault(one.indices, len(kept))
+            meshes.append({"primitives": [reduced]})
+    offsets = np.concatenate(([0], np.cumsum([len(buffer) for buffer in buffers]))).tolist()
+    views, accessors = [], []
+    for number in kept:
+        accessor = tree.accessors[number]
+        view = tree.buffer_views[accessor.buffer_view or 0]
+        moved = {"buffer": 0, "byteOffset": offsets[view.buffer] + view.byte_offset, "byteLength": view.byte_length}
+        views.append(moved | ({"byteStride": view.byte_stride} if view.byte_stride else {}))
+        kind = {"componentType": accessor.component_type, "count": accessor.count, "type": accessor.type}
+        accessors.append({"bufferView": len(views) - 1, "byteOffset": accessor.byte_offset, **kind})
+    header = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": offsets[-1]}],
+        "bufferViews": views,
+        "accessors": accessors,
+        "meshes": meshes,
+        "nodes": [],
+        "scenes": [{"nodes": []}],
+    }
+    text = msgspec.json.encode(header)
+    length = _HEADER.size + 2 * _CHUNK.size + len(text) + offsets[-1]
+    head = _HEADER.pack(b"glTF", 2, length % 2**32), _CHUNK.pack(len(text), _JSON), text
+    stream = io.BytesIO(b"".join((*head, _CHUNK.pack(offsets[-1], _BIN), *buffers)))
+    try:
+        geometry: dict[str, dict[str, Any]] = load_glb(stream, skip_materials=True)["geometry"]
+    except (MemoryError, InputError):
+        raise
+    except Exception as error:
+        raise InputError(f"cannot be read as glTF: {type(error).__name__}: {error}") from None
+    return list(geometry.values())
+
+
+def _extra(tree: Tree, primitive: Primitive) -> Iterator[str]:
+    """Attributes of a primitive that are kept as properties."""
+    rows = tree.accessors[primitive.position].count
+    for name, number in primitive.attributes.items():
+        if name == "COLOR_0" or name.startswith("_"):
+            accessor = check_accessor(tree, number, f"attribute {name[:40]}")
+            kinds = ("VEC3", "VEC4") if name == "COLOR_0" else ("SCALAR",)
+            if accessor.type in kinds and accessor.count == rows:
+                yield name
+
+
+def _assembled(
+    tree: Tree,
+    parts: dict[int, list[Primitive]],
+    placed: list[tuple[int, int, Matrix]],
+    arrays: list[dict[str, Any]],
+    name: str,
+    notices: list[Notice],
+) -> MeshFile:
+    first = dict(zip(parts, np.cumsum([0, *map(len, parts.values())]).tolist(), strict=False))
+    points: list[NDArray[Any]] = []
+    corners: list[NDArray[np.int32]] = []
+    columns: list[tuple[int, dict[str, NDArray[Any]]]] = []
+    nodes: list[tuple[int, int]] = []
+    materials: list[tuple[int, int]] = []
+    rows = 0
+    for number, (_, mesh, matrix) in enumerate(placed):
+        begins: dict[int, int] = {}
+        turned = np.linalg.det(matrix[:3, :3]) < 0
+        for one, content in zip(parts[mesh], arrays[first[mesh] :], strict=False):
+            if one.position not in begins:
+                begins[one.position] = rows
+                points.append(transformed(_positions(tree, one, content), matrix))
+                columns.append((rows, _properties(content)))
+                rows += len(points[-1])
+            count = len(content["vertices"])
+            faces = np.asarray(content["faces"])
+            place = f"mesh {mesh}: triangle"
+            own = checked_corners(faces.reshape(-1), 3, place, count).reshape(-1, 3) + np.int32(begins[one.position])
+            corners.append(own[:, [0, 2, 1]] if turned else own)
+            nodes.append((number, len(own)))
+            materials.append((-1 if one.material is None else one.material, len(own)))
+    if not sum(map(len, corners)):
+        raise InputError("no faces", hint="a surface needs a node with a mesh of triangles")
+    notices = [*notices, *_ignored(tree, parts)]
+    return MeshFile(
+        name,
+        np.ascontiguousarray(np.concatenate(points).T),
+        np.concatenate(corners).reshape(-1),
+        vertex_properties=_merged(columns, rows),
+        polygon_labels=scene_labels(tree, placed, nodes, materials),
+        notices=tuple(notices),
+    )
+
+
+def _positions(tree: Tree, primitive: Primitive, content: dict[str, Any]) -> NDArray[np.float64]:
+    points = np.asarray(content["vertices"])
+    largest = _LARGEST.get(points.dtype.str[1:])
+    if tree.accessors[primitive.position].normalized and largest:
+        return np.maximum(points / largest, -1.0)
+    return points.astype(np.float64)
+
+
+def _properties(content: dict[str, Any]) -> dict[str, NDArray[Any]]:
+    columns: dict[str, NDArray[Any]] = {}
+    if (colours := content.get("vertex_colors")) is not None:
+        columns |= dict(zip(_CHANNELS, np.asarray(colours).T, strict=False))
+    for name, values in content.get("vertex_attributes", {}).items():
+        columns[name] = np.asarray(values).reshape(-1)
+    return columns
+
+
+def _merged(columns: list[tuple[int, dict[str, NDArray[Any]]]], rows: int) -> dict[str, NDArray[np.generic]]:
+    """Columns of all vertices: NaN where a mesh has none, in the type of the file where all have the same."""
+    merged: dict[str, NDArray[np.generic]] = {}
+    for name in dict.fromkeys(name for _, own in columns for name in own):
+        kinds = {own[name].dtype if name in own else np.dtype(np.float64) for _, own in columns}
+        column = np.full(rows, np.nan, np.float64 if len(kinds) > 1 else None)
+        column = np.empty(rows, kinds.pop()) if len(kinds) == 1 and all(name in own for _, own in columns) else column
+        for begin, own in columns:
+            if name in own:
+                column[begin : begin + len(own[name])] = own[name]
+        merged[name] = column
+    return merged
+
+
+def _ignored(tree: Tree, parts: dict[int, list[Primitive]]) -> list[Notice]:
+    others = sum(one.mode < TRIANGLES for mesh in parts for one in tree.meshes[mesh].primitives)
+    moving = sum(bool(one.targets) for primitives in parts.values() for one in primitives)
+    skins = sum(node.skin is not None for node in tree.nodes)
+    words = [
+        (others, "[primitive|primitives] of points or lines"),
+        (moving, "[primitive|primitives] with morph targets"),
+        (skins, "[node|nodes] with a skin, in [its|their] bind pose"),
+    ]
+    found = [f"{count} {pluralize(count, word)}" for count, word in words if count]
+    if not found:
+        return []
+    message = f"parts of the scene that are no triangles at rest, ignored: {', '.join(found)}"
+    return [Notice("ignored_parts", others + moving + skins, message)]
