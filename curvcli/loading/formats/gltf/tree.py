@@ -10,9 +10,9 @@ from msgspec import Meta, Struct
 
 from ....errors import InputError
 
-Index = Annotated[int, Meta(ge=0)]
+Reference = Annotated[int, Meta(ge=0)]
 Size = Annotated[int, Meta(ge=0, le=2**53)]
-Row = Annotated[list[float], Meta(min_length=3, max_length=3)]
+Triple = Annotated[list[float], Meta(min_length=3, max_length=3)]
 
 TRIANGLES, STRIP, FAN = 4, 5, 6
 _ITEM_SIZES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
@@ -38,7 +38,7 @@ class Buffer(Struct, rename="camel"):
 class View(Struct, rename="camel", omit_defaults=True):
     """A range of a buffer."""
 
-    buffer: Index
+    buffer: Reference
     byte_length: Size
     byte_offset: Size = 0
     byte_stride: Size | None = None
@@ -50,7 +50,7 @@ class Accessor(Struct, rename="camel", omit_defaults=True):
     component_type: int
     count: Size
     type: str
-    buffer_view: Index | None = None
+    buffer_view: Reference | None = None
     byte_offset: Size = 0
     normalized: bool = False
     sparse: Any = None
@@ -64,9 +64,9 @@ class Accessor(Struct, rename="camel", omit_defaults=True):
 class Primitive(Struct, rename="camel", omit_defaults=True):
     """A part of a mesh with one material."""
 
-    attributes: dict[str, Index]
-    indices: Index | None = None
-    material: Index | None = None
+    attributes: dict[str, Reference]
+    indices: Reference | None = None
+    material: Reference | None = None
     mode: int = TRIANGLES
     targets: list[Any] = []
     extensions: dict[str, Any] = {}
@@ -87,21 +87,21 @@ class Mesh(Struct, rename="camel"):
 class Node(Struct, rename="camel"):
     """A place in the scene."""
 
-    mesh: Index | None = None
-    children: list[Index] = []
+    mesh: Reference | None = None
+    children: list[Reference] = []
     name: str | None = None
     matrix: Annotated[list[float], Meta(min_length=16, max_length=16)] | None = None
-    translation: Row | None = None
+    translation: Triple | None = None
     rotation: Annotated[list[float], Meta(min_length=4, max_length=4)] | None = None
-    scale: Row | None = None
-    skin: Index | None = None
+    scale: Triple | None = None
+    skin: Reference | None = None
     extensions: dict[str, Any] = {}
 
 
 class Scene(Struct, rename="camel"):
     """Root nodes."""
 
-    nodes: list[Index] = []
+    nodes: list[Reference] = []
 
 
 class Material(Struct, rename="camel"):
@@ -120,7 +120,7 @@ class Tree(Struct, rename="camel"):
     meshes: list[Mesh] = []
     nodes: list[Node] = []
     scenes: list[Scene] = []
-    scene: Index | None = None
+    scene: Reference | None = None
     materials: list[Material] = []
     extensions_required: list[str] = []
 
