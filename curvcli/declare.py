@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from .curvatures.quantity import Quantity
-from .curvatures.registry import Pass, curvature_pass
-from .support.arrays import Codes, Column, Counts, Flags, VectorColumn
-
-__all__ = ["Codes", "Column", "Counts", "Flags", "Pass", "Quantity", "VectorColumn", "curvature_pass"]
+__all__ = [
+    *("Codes", "Column", "Counts", "DerivedTotal", "Flags", "Pass", "Quantity", "Setting", "VectorColumn"),
+    *("curvature_pass", "derived_total"),
+]

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from ..checks.catalogue import named_checks
 from ..curvatures.catalogue import at_scales, defaults, resolve
+from ..curvatures.derived import derived_for
 from ..curvatures.engine import schedule
-from ..curvatures.quantity import AT_SCALE, CELL_AREAS, Quantity
+from ..curvatures.quantity import AT_SCALE, CELL_AREAS, Configurable, Quantity
 from ..curvatures.registry import passes as registry
 from ..curvatures.settings import GivenSettings, SettingValue, describe_settings, implied, parse_settings, regions_of
 from ..errors import UsageError
@@ -154,8 +155,9 @@ class Request:
         scaled = any(registry.depends_on_scale(name) for name in base_names)
         order = schedule(registry, base_names, "barycentric")
         used = {need for step in order for need in step.needs}
+        owners: list[Configurable] = [*order, *derived_for(self.chosen, self.values)]
         values: dict[str, SettingValue] = {
-            f"{step.name}.{each.name}": each.default for step in order for each in step.settings
+            f"{owner.name}.{each.name}": each.default for owner in owners for each in owner.settings
         }
         values |= {name: value for name, value in self.values.items() if name in values}
         settings = self.settings

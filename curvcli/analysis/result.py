@@ -16,6 +16,7 @@ from ..checks.catalogue import identities
 from ..checks.partition import Share
 from ..checks.summary import summarise_checks
 from ..curvatures.catalogue import at_scales
+from ..curvatures.derived import derived_for
 from ..curvatures.engine import evaluate, in_file_unit, prepare, schedule
 from ..curvatures.quantity import AT_SCALE, CELL_AREA, Element
 from ..curvatures.registry import passes
@@ -32,7 +33,7 @@ from .columns import Columns, named
 from .request import Request
 from .resolution import beside, of_stars, unscaled
 from .shares import Partition
-from .totals import lost, lost_totals, summed, totals
+from .totals import columns_for, lost, lost_totals, summed, totals
 
 if TYPE_CHECKING:
     from .configuration import Configuration
@@ -65,11 +66,13 @@ class Result:
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
         self.configuration: Configuration | None = None
+        self._derived = derived_for(self.chosen, self.settings.values)
         self._rules = self._applicable_rules() if checks is None else [identities()[name] for name in checks]
         wanted = {
             *self.chosen,
             *_ALWAYS,
             *self._totalled,
+            *columns_for(self._derived),
             *self._flags,
             *beside(self.chosen),
             *(need for rule in self._rules for need in rule.needs),
@@ -174,7 +177,7 @@ class Result:
     def totals_of(self, groups: Groups) -> dict[str, NDArray[np.float64]]:
         """Totals of each group, (G,) or (G, 3); NaN where undefined."""
         rigidity = 1.0 if self.request.rigidity is None else self.request.rigidity.size
-        return totals(self.surface, groups, self.columns, self.request.mean, rigidity)
+        return totals(self.surface, groups, self.columns, self.request.mean, rigidity, self._derived, self.settings)
 
     @cached_property
     def totals(self) -> dict[str, float | list[float] | None]:

@@ -2,33 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
+from ..curvatures.derived import DerivedTotal, compute_derived
 from ..curvatures.quantity import AT_SCALE, Quantity
 from ..curvatures.registry import passes
-from ..mesh.counts import count_groups
+from ..mesh.counts import classify, count_groups
 from ..mesh.enclosed import volumes
 from ..mesh.groups import Groups, Segments
+from ..mesh.scale import DEFAULTS, EstimatorSettings
 from ..mesh.surface import Surface
 from ..support.arrays import Floats
 
 
 def totals(
-    surface: Surface, groups: Groups, columns: Mapping[str, Any], mean: str = "sum", rigidity: float = 1.0
+    surface: Surface,
+    groups: Groups,
+    columns: Mapping[str, Any],
+    mean: str = "sum",
+    rigidity: float = 1.0,
+    derived: Collection[DerivedTotal] = (),
+    settings: EstimatorSettings = DEFAULTS,
 ) -> dict[str, Floats]:
     """Every total that the given columns provide, (G,) or (G, 3), in the file's unit and the chosen convention for H.
 
     Totals that are odd under reversal of the orientation are NaN on groups without one; nulls in a column are left out.
-    rigidity: the bending rigidity, which energies are multiplied by.
+    rigidity: the bending rigidity, which energies are multiplied by. derived: totals that follow from others.
     """
     totals_by_key: dict[str, Floats] = {}
+    known: dict[str, Floats] = {}
     for key, total, length_exponent, mean_degree, energy in _computed(surface, groups, columns):
+        known[key] = total
         shown = surface.in_file_unit(total, length_exponent)
         shown = shown * 0.5**mean_degree if mean == "average" else shown
         totals_by_key[key] = shown * rigidity if energy else shown
+    if derived:
+        counts = count_groups(surface, groups)
+        closed = counts.closed & counts.orientable & (classify(surface, groups).components == 1)
+        for each, total in compute_derived(derived, surface, known, closed, settings):
+            shown = surface.in_file_unit(total, each.length_exponent)
+            totals_by_key[each.name] = shown * rigidity if each.energy else shown
     return totals_by_key
 
 
@@ -70,6 +86,12 @@ def summed(names: Collection[str]) -> list[Quantity]:
     for name in names:
         at.setdefault(name.partition(AT_SCALE)[0], []).append(name)
     return [passes.quantity(name) for quantity in passes.totals() for name in at.get(quantity.name, ())]
+
+
+def columns_for(derived: Iterable[DerivedTotal]) -> list[str]:
+    """Quantities whose totals the derived ones need."""
+    needs = {need for each in derived for need in each.needs}
+    return [quantity.name for quantity in passes.totals() if quantity.total in needs]
 
 
 def _sum(segments: Segments, quantity: Quantity, column: Any) -> Floats:

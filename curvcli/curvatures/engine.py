@@ -17,7 +17,18 @@ from ..mesh.sheets import on_single_fans, sheets
 from ..mesh.surface import Surface
 from ..support.arrays import Array
 from ..support.blocks import for_each, slices
-from .quantity import AT_SCALE, CELL_AREA, CELL_AREAS, MASKS, NO_QUANTITIES, SURFACE, Provider, Quantity, Step
+from .quantity import (
+    AT_SCALE,
+    CELL_AREA,
+    CELL_AREAS,
+    MASKS,
+    NO_QUANTITIES,
+    SURFACE,
+    Configurable,
+    Provider,
+    Quantity,
+    Step,
+)
 
 # Block size of pointwise passes.
 _VERTICES = 1 << 16
@@ -46,8 +57,8 @@ def arguments(
     return [answer(need) for need in step.needs]
 
 
-def values_of(step: Step, surface: Surface, settings: EstimatorSettings = DEFAULTS) -> dict[str, Any]:
-    """The values of a pass's own parameters by name, in the unit of computation."""
+def values_of(step: Configurable, surface: Surface, settings: EstimatorSettings = DEFAULTS) -> dict[str, Any]:
+    """The values of the parameters of a pass or a derived total by name, in the unit of computation."""
     values = {each.name: settings.values.get(f"{step.name}.{each.name}", each.default) for each in step.settings}
     if surface.unit_exponent:
         for each in step.settings:

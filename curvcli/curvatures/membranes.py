@@ -1,11 +1,12 @@
-"""Helfrich's bending energy of membranes."""
+"""Helfrich's bending energy of membranes, and the area difference and the reduced volume of vesicles."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..mesh.surface import Surface
-from ..support.arrays import Column
+from ..support.arrays import Column, Floats
+from .derived import derived_total
 from .registry import curvature_pass
 from .setting import Setting
 
@@ -54,3 +55,71 @@ def _over_stars(surface: Surface, star_area: Column, face_area: Column, values: 
         mean = third(np.repeat(face_area * values, 3)) / star_area
     gap = np.repeat(values, 3) - mean[corner]
     return mean, third(np.repeat(face_area, 3) * gap * gap)
+
+
+@derived_total(
+    symbol="v",
+    formula="V / (4π/3 R³), R = √(area/4π)",
+    parity="odd",
+    beside="helfrich",
+    source="Seifert, Configurations of fluid membranes and vesicles",
+)
+def reduced_volume(area: Floats, volume: Floats) -> Floats:
+    """Reduced volume of a closed component: its volume over that of the sphere with its area, 1 for a sphere."""
+    ratio: Floats = 6 * np.sqrt(np.pi) * volume / (area * np.sqrt(area))
+    return ratio
+
+
+@derived_total(
+    symbol="ΔA",
+    formula="D Σ θ_e|e| = D ΣH_theta",
+    length_exponent=2,
+    parity="odd",
+    source="Svetina and Žekš, Membrane bending energy and shape determination of phospholipid vesicles and red blood "
+    "cells; Miao, Seifert, Wortis and Döbereiner, Budding transitions of fluid-bilayer vesicles",
+    settings={
+        "thickness": Setting(
+            "distance D between the neutral surfaces of the two leaflets, in the unit of the file",
+            length_exponent=1,
+            minimum=0.0,
+        )
+    },
+)
+def area_difference(H_theta: Floats, thickness: float = 0.0) -> Floats:
+    """Area difference of the leaflets of a closed bilayer, outer minus inner.
+
+    Parallel surfaces at ±D/2 have the areas A ± ½D ΣH_theta + ¼D² ΣK, so that the difference is D ΣH_theta exactly.
+    """
+    return thickness * H_theta
+
+
+@derived_total(
+    symbol="Δa",
+    formula="ΣH_theta / (8πR), R = √(area/4π); ΔA = 8πRD Δa",
+    parity="odd",
+    beside="helfrich",
+    source="Miao, Seifert, Wortis and Döbereiner, Budding transitions of fluid-bilayer vesicles",
+)
+def reduced_area_difference(area: Floats, H_theta: Floats) -> Floats:
+    """Reduced area difference of a closed component: ΔA over that of the sphere with its area, 1 for a sphere."""
+    ratio: Floats = H_theta / (4 * np.sqrt(np.pi) * np.sqrt(area))
+    return ratio
+
+
+@derived_total(
+    symbol="E_ADE",
+    formula="8π² α (Δa − Δa₀)² = ½ α π (ΔA − ΔA₀)² / (area D²), in units of κ",
+    energy=True,
+    source="Miao, Seifert, Wortis and Döbereiner, Budding transitions of fluid-bilayer vesicles",
+    settings={
+        "ratio": Setting("ratio α of the nonlocal bending rigidity to κ", minimum=0.0),
+        "preferred": Setting("preferred reduced area difference Δa₀", parity="odd"),
+    },
+)
+def area_difference_energy(reduced_area_difference: Floats, ratio: float = 1.0, preferred: float = 1.0) -> Floats:
+    """Elastic energy of the area difference of a closed component, in units of the bending rigidity κ.
+
+    The thickness D cancels. `helfrich` plus this is the energy of the area-difference elasticity model.
+    """
+    gap = reduced_area_difference - preferred
+    return 8 * np.pi**2 * ratio * gap * gap

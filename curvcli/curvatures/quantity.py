@@ -79,11 +79,18 @@ class Quantity:
         return "1" if exponent == 0 else base if exponent == 1 else f"{base}^{exponent}"
 
 
-class Step(Protocol):
-    """Protocol of a pass for the engine, see `registry.Pass`."""
+class Configurable(Protocol):
+    """Protocol of an object that settings configure by its name."""
 
     @property
     def name(self) -> str: ...
+    @property
+    def settings(self) -> tuple[Setting, ...]: ...
+
+
+class Step(Configurable, Protocol):
+    """Protocol of a pass for the engine, see `registry.Pass`."""
+
     @property
     def compute(self) -> Callable[..., Any]: ...
     @property
@@ -92,8 +99,6 @@ class Step(Protocol):
     def needs(self) -> tuple[str, ...]: ...
     @property
     def pointwise(self) -> bool: ...
-    @property
-    def settings(self) -> tuple[Setting, ...]: ...
 
 
 class Provider(Protocol):

@@ -9,6 +9,8 @@ from typing import Any
 from ..errors import UsageError
 from ..support.words import format_number, suggestion
 from .catalogue import load_passes
+from .derived import derived
+from .quantity import Configurable
 from .registry import Pass, passes
 from .setting import Scalar, Setting
 
@@ -94,8 +96,9 @@ def find_setting(name: str) -> tuple[str, Setting]:
     """
     load_passes()
     owner, dot, key = name.strip().partition(".")
-    having = {f"{each.name}.{setting.name}": setting for each in passes.values() for setting in each.settings}
-    known = _pass_of(owner)
+    owners: list[Configurable] = [*passes.values(), *derived.values()]
+    having = {f"{each.name}.{setting.name}": setting for each in owners for setting in each.settings}
+    known = derived.get(owner) or _pass_of(owner)
     if known is None:
         way_out = suggestion(owner, [full.partition(".")[0] for full in having], "`curvcli passes` lists the passes")
         raise UsageError(f"--set {name}: unknown pass {owner!r}{way_out}")
@@ -119,8 +122,8 @@ def _pass_of(name: str) -> Pass | None:
 def implied(values: Mapping[str, SettingValue], rigidity: str | None = None) -> list[str]:
     """Public quantities of the passes that have a value, and the energies where a bending rigidity is given."""
     load_passes()
-    owners = dict.fromkeys(name.partition(".")[0] for name in values)
-    names = [quantity.name for owner in owners for quantity in passes[owner].provides if quantity.public]
+    owners = [passes[owner] for owner in dict.fromkeys(name.partition(".")[0] for name in values) if owner in passes]
+    names = [quantity.name for owner in owners for quantity in owner.provides if quantity.public]
     energies = [quantity.name for quantity in passes.quantities() if quantity.energy and rigidity is not None]
     return list(dict.fromkeys([*names, *energies]))
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..curvatures.derived import derived
 from ..errors import LackingError
 from ..support.words import escape_json, escape_text, suggestion
 from .model import Piece, one_line
-from .quantities import public, smallest_preset
+from .quantities import asked_by, public, smallest_preset
 
 
 def look_up(report: dict[str, Any], path: str) -> str:
@@ -64,4 +65,6 @@ def _added_by(key: str, members: dict[str, Any], walked: str) -> str | None:
         keys = {"totals": (quantity.total,), "columns": quantity.columns if quantity.on == "vertex" else ()}
         if key in keys.get(walked.rpartition(".")[2], ()):
             return f"-p {smallest_preset(quantity)} or -p {quantity.name}"
+    if walked.rpartition(".")[2] == "totals" and key in derived:
+        return asked_by(derived[key])
     return None

@@ -9,6 +9,7 @@ import msgspec
 
 from ..analysis.configuration import Configured
 from ..checks.base import Check
+from ..curvatures.derived import derived
 from ..curvatures.registry import passes
 from ..errors import Notice
 from ..support.arrays import Value
@@ -211,5 +212,5 @@ def schema() -> bytes:
         piece["properties"]["totals"]["properties"] = {
             quantity.total or "": {"description": unmarked(f"Σ {quantity.name}: {quantity.description}")}
             for quantity in passes.totals()
-        }
+        } | {name: {"description": unmarked(f"{each.symbol}: {each.description}")} for name, each in derived.items()}
     return encode(document)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any, TypedDict
 
 from ..curvatures.catalogue import load_passes, resolve
-from ..curvatures.quantity import CELL_AREA, NO_QUANTITIES, Quantity
+from ..curvatures.derived import DerivedTotal, derived
+from ..curvatures.quantity import CELL_AREA, NO_QUANTITIES, Configurable, Quantity
 from ..curvatures.registry import passes
 from ..curvatures.settings import format_scalar
 from ..errors import UsageError
@@ -14,7 +15,7 @@ from ..support.words import suggestion
 _BOLD = str.maketrans("", "", "*")
 
 
-class Knob(TypedDict):
+class ParameterFacts(TypedDict):
     """Parameter of a pass: the name behind `--set`, its type, default, unit and meaning."""
 
     name: str
@@ -46,7 +47,7 @@ class Facts(TypedDict):
     source: str
     needs: list[str]
     preset: str
-    parameters: list[Knob]
+    parameters: list[ParameterFacts]
 
 
 def public() -> list[Quantity]:
@@ -62,8 +63,17 @@ def find(name: str) -> Quantity:
     """
     known = {column: quantity for quantity in reversed(public()) for column in (quantity.name, *quantity.columns)}
     if name not in known:
-        raise UsageError(f"unknown quantity {name!r}{suggestion(name, known, '`curvcli passes` lists them')}")
+        way_out = suggestion(name, [*known, *derived], "`curvcli passes` lists them")
+        raise UsageError(f"unknown quantity {name!r}{way_out}")
     return known[name]
+
+
+def asked_by(total: DerivedTotal) -> str:
+    """Options that compute a derived total."""
+    owner = derived[total.name]
+    while not owner.beside and not owner.settings:
+        owner = derived[owner.needs[0]]
+    return f"-p {owner.beside}" if owner.beside else f"--set {owner.name}.{owner.settings[0].name}=VALUE"
 
 
 def unmarked(text: str) -> str:
@@ -91,13 +101,37 @@ def facts(quantity: Quantity) -> Facts:
         "source": quantity.source,
         "needs": ["the area chosen by --area" if need == CELL_AREA else need for need in _needs(quantity.name)],
         "preset": smallest_preset(quantity),
-        "parameters": parameters(quantity.name),
+        "parameters": parameters(passes.provider(quantity.name)),
     }
 
 
-def parameters(name: str) -> list[Knob]:
-    """Parameters of the pass that provides a quantity."""
-    owner = passes.provider(name)
+def facts_of_total(total: DerivedTotal) -> Facts:
+    """Facts of a derived total."""
+    quantity = Quantity(total.name, length_exponent=total.length_exponent, energy=total.energy)
+    return {
+        "name": total.name,
+        "symbol": unmarked(total.symbol),
+        "on": "component",
+        "kind": "total",
+        "columns": [],
+        "description": unmarked(total.description),
+        "formula": unmarked(total.formula),
+        "unit": quantity.unit(None),
+        "length_exponent": total.length_exponent,
+        "mean_degree": 0,
+        "parity": total.parity,
+        "boundary": "null on a piece that is open, not connected or without an orientation",
+        "preserves": "",
+        "total": f"totals.{total.name}",
+        "source": total.source,
+        "needs": [f"totals.{need}" for need in total.needs],
+        "preset": asked_by(total),
+        "parameters": parameters(total),
+    }
+
+
+def parameters(owner: Configurable) -> list[ParameterFacts]:
+    """Parameters of a pass or of a derived total."""
     return [
         {
             "name": f"{owner.name}.{each.name}",
@@ -112,7 +146,7 @@ def parameters(name: str) -> list[Knob]:
     ]
 
 
-def parameter_sentence(knob: Knob) -> str:
+def parameter_sentence(knob: ParameterFacts) -> str:
     """A parameter in one line for people."""
     unit = "" if knob["unit"] == "1" else f" {knob['unit']}"
     parts = [knob["description"], f"default {format_scalar(knob['default'])}{unit}"]
@@ -139,8 +173,17 @@ def smallest_preset(quantity: Quantity) -> str:
 
 
 def as_data(name: str | None) -> Any:
-    """Facts of one quantity, or of all."""
-    return facts(find(name)) if name else [facts(quantity) for quantity in public()]
+    """Facts of one quantity or derived total, or of all quantities."""
+    return facts_named(name) if name else [facts(quantity) for quantity in public()]
+
+
+def facts_named(name: str) -> Facts:
+    """Facts of a quantity, of one of its columns, or of a derived total.
+
+    Errors: UsageError with the nearest names.
+    """
+    load_passes()
+    return facts_of_total(derived[name]) if name in derived else facts(find(name))
 
 
 def _reversed(quantity: Quantity) -> str:
@@ -185,5 +228,23 @@ def page() -> str:
         ]
         sections.append(f"### `{quantity.name}` {shown['symbol']}\n")
         sections.append(f"{quantity.description}\n")
+        sections.append("\n".join(f"* {label}: {value}" for label, value in rows if value) + "\n")
+    sections.append("## Totals of components\n")
+    sections.append(
+        "Computed from other totals; null on a piece that is open, not connected or without an orientation.\n"
+    )
+    for total in derived.values():
+        shown = facts_of_total(total)
+        rows = [
+            ("formula", shown["formula"]),
+            ("unit", shown["unit"]),
+            ("faces reversed", f"becomes −`{total.name}`" if total.parity == "odd" else ""),
+            ("computed with", f"`{shown['preset']}`"),
+            ("source", shown["source"]),
+            ("needs", ", ".join(shown["needs"])),
+            *((f"`--set {knob['name']}=…`", parameter_sentence(knob)) for knob in shown["parameters"]),
+        ]
+        sections.append(f"### `{total.name}` {shown['symbol']}\n")
+        sections.append(f"{total.description}\n")
         sections.append("\n".join(f"* {label}: {value}" for label, value in rows if value) + "\n")
     return "\n".join(sections)

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...curvatures.catalogue import load_passes
+from ...curvatures.derived import derived
 from ...curvatures.quantity import Quantity
 from ...curvatures.registry import passes
 from ...mesh.triangles import EPSILON
@@ -177,6 +178,7 @@ def _piece(piece: Mapping[str, Any], prefix: Key, flatness: float) -> Iterator[t
     terms = 16 * EPSILON * (topology["faces"] + topology["vertices"])
     exponents = {name: (q.length_exponent, q.signed or q.vector) for name, q in _by_total().items()}
     exponents["volume"] = 3, False
+    exponents |= {name: (each.length_exponent, False) for name, each in derived.items()}
 
     def total(value: Any, exponent: int, cancels: bool) -> Leaf:
         return Leaf(value, power(area, exponent / 2) if cancels else 0.0, terms * power(edge, exponent))

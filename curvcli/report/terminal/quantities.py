@@ -8,7 +8,7 @@ from typing import Any
 from rich.table import Table
 
 from ..advice import as_text
-from ..quantities import facts, find, parameter_sentence, public
+from ..quantities import facts, facts_named, parameter_sentence, public
 from .console import escape, report_console
 from .fitting import fitting, plain_table
 
@@ -41,7 +41,7 @@ def _listed(headers: Sequence[str]) -> Table:
 
 def describe(name: str) -> None:
     """Print all facts of one quantity."""
-    shown: dict[str, Any] = {**facts(find(name))}
+    shown: dict[str, Any] = {**facts_named(name)}
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(overflow="fold")
