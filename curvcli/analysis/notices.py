@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..curvatures.quantity import AT_SCALE
+from ..curvatures.quantity import AT_SCALE, Quantity
+from ..curvatures.registry import passes
 from ..errors import Notice
 from ..mesh.counts import duplicate_faces, duplicate_vertices
 from ..mesh.precision import is_single, last_place
@@ -48,66 +49,20 @@ def _all(surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
     yield from solid_notices(surface)
     if "star_extent" in columns:
         yield from _coordinate_rounding(surface, columns)
-    if "kappa_clamped" in columns:
-        yield Notice.at(
-            "clamped_radicand",
-            _clamped(surface, columns),
-            "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
-            "H and K are discretised apart: at umbilics, as on spheres, a small error does it; elsewhere the mesh is "
-            "coarse or noisy",
-        )
-    if "folded" in columns:
-        yield Notice.at(
-            "folded_edges",
-            np.flatnonzero(columns["folded"]),
-            "[edge|edges] where the surface folds onto itself; H_tan has no value there",
-            "H_theta and H_sin have one; sums of H_tan leave such edges out",
-        )
-    for flag, name in (("below_noise", "K"), ("h_below_noise", "h")):
-        if flag in columns:
-            yield Notice.at(
-                flag,
-                np.flatnonzero(columns[flag]),
-                f"[vertex|vertices] where |{name}| is below its own uncertainty {name}_sigma",
-                f"noise of the coordinates alone explains {name} there; estimates over more rings average noise out",
-            )
-    yield from _not_fitted(columns)
-    if "voronoi_unfinished" in columns:
-        yield Notice.at(
-            "voronoi_unfinished",
-            np.flatnonzero(columns["voronoi_unfinished"]),
-            "[vertex|vertices] whose Voronoi cell would take too many flips to find; it is left empty",
-            "--area mixed needs none; a mesh without long fans of thin triangles needs few",
-        )
+    for quantity in passes.flags():
+        yield from _of_flag(quantity, surface, columns)
 
 
-def _not_fitted(columns: Mapping[str, Any]) -> Iterator[Notice]:
-    """Notices of the vertices of each scale where no polynomial over a plane fits the surface."""
-    for name in sorted(columns):
-        base, _, scale = name.partition(AT_SCALE)
-        if base == "no_graph":
-            yield Notice.at(
-                "no_graph",
-                np.flatnonzero(columns[name]),
-                f"[vertex|vertices] whose neighbourhood{f' ({describe_scales(scale)})' if scale else ''} folds over or "
-                "bends more than a graph over its tangent plane can; local fits are undefined there",
-                "*_corrected needs no plane; take a smaller scale or a finer mesh",
-            )
-
-
-def _clamped(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
-    """Vertices with a clamped radicand; flat ones, where K is below the rounding of the coordinates, are left out.
-
-    Coordinates that change by one unit in the last place turn the edges of a flat star by about place/√A, and K is
-    quadratic in that.
-    """
-    clamped = np.flatnonzero(columns["kappa_clamped"])
-    if not len(clamped):
-        return clamped
-    place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
-    turned = surface.degree[clamped] * place / np.sqrt(columns["star_area"][clamped])
-    kept: NDArray[np.intp] = clamped[np.abs(columns["K"][clamped]) > turned * turned]
-    return kept
+def _of_flag(quantity: Quantity, surface: Surface, columns: Mapping[str, Any]) -> Iterator[Notice]:
+    """Notices of the elements that a hidden flag marks, one for each scale."""
+    declared = quantity.notice
+    if declared is None:
+        return
+    for name in sorted(name for name in columns if name.partition(AT_SCALE)[0] == quantity.name):
+        scale = name.partition(AT_SCALE)[2]
+        message = declared.message.replace("{scale}", f" ({describe_scales(scale)})" if scale else "")
+        marked = declared.select(surface, columns) if declared.select else np.flatnonzero(columns[name])
+        yield Notice.at(declared.code, marked, message, declared.hint)
 
 
 def _not_a_manifold(surface: Surface) -> Iterator[Notice]:

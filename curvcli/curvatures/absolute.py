@@ -37,6 +37,8 @@ _SHARED = {
             preserves="K⁺ − K⁻ = K; Σ(K⁺ + K⁻)/2π is the mean number of critical points of height functions",
             description="Positive part of the Gauss curvature, a measure: the solid angle of the star's normal cone.",
             **_SHARED,  # type: ignore[arg-type]
+            after="K_comb",
+            total_after="H_tan",
         ),
         Quantity(
             "K_minus",
@@ -46,6 +48,8 @@ _SHARED = {
             preserves="K⁺ − K⁻ = K; 0 everywhere exactly on locally convex surfaces",
             description="Negative part of the Gauss curvature, a measure.",
             **_SHARED,  # type: ignore[arg-type]
+            after="K_plus",
+            total_after="K_plus",
         ),
         Quantity(
             "K_abs",
@@ -56,6 +60,8 @@ _SHARED = {
             description="Absolute Gauss curvature, a measure: K_abs/2π is the mean number of critical points, counted "
             "with multiplicity, that height functions have at p.",
             **_SHARED,  # type: ignore[arg-type]
+            after="K_minus",
+            total_after="K_minus",
         ),
     )
 )

@@ -29,6 +29,8 @@ def general_defect(surface: Surface, angle_sum: Column, coincident: Flags) -> Co
     preserves="gauss_bonnet: ΣK + Σκ_g = 2πχ; holonomy about p is a rotation by K_p",
     boundary="null, the defect is kappa_g there",
     source="Sullivan, Discrete surfaces",
+    after="degree",
+    total_after="area",
 )
 def K(boundary: Flags, general_defect: Column) -> Column:
     """Gauss curvature of the star: its angle defect, a measure in radians."""
@@ -43,6 +45,8 @@ def K(boundary: Flags, general_defect: Column) -> Column:
     preserves="gauss_bonnet: ΣK + Σκ_g = 2πχ",
     boundary="the turning of the boundary at p, positive where the surface is convex in itself; null inside",
     source="Sullivan, Discrete surfaces",
+    after="K",
+    total_after="K",
 )
 def kappa_g(boundary: Flags, general_defect: Column) -> Column:
     """Geodesic curvature of the boundary at the vertex: how far it turns, a measure in radians."""
@@ -56,6 +60,7 @@ def kappa_g(boundary: Flags, general_defect: Column) -> Column:
     boundary="same: (π/3)(4 − deg)",
     signed=True,
     source="Sullivan, Discrete surfaces",
+    after="kappa_g",
 )
 def K_comb(surface: Surface) -> Column:
     """Combinatorial curvature: the angle defect the vertex would have if every triangle were equilateral."""

@@ -22,6 +22,7 @@ from .star import null_where
     boundary="same",
     source="Sullivan, Discrete surfaces; Meyer, Desbrun, Schröder and Barr, Discrete differential-geometry operators "
     "for triangulated 2-manifolds, section 3.3",
+    after="A",
 )
 def A_mixed(surface: Surface) -> Column:
     """Area of the vertex's mixed cell: the Voronoi cell within each face that is not obtuse.

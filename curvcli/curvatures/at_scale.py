@@ -42,7 +42,7 @@ _ENERGY: dict[str, Any] = {
 _SOURCE = "Koenderink and van Doorn, Surface shape and curvature scales; the curvatures are those of "
 
 
-def _shapes(suffix: str, boundary: str) -> tuple[Quantity, ...]:
+def _shapes(suffix: str, boundary: str, after: str) -> tuple[Quantity, ...]:
     """The declarations of the shape index and the curvedness of the estimates with this suffix."""
     source = f"{_SOURCE}kappa_1_{suffix} and kappa_2_{suffix}"
     return (
@@ -53,6 +53,7 @@ def _shapes(suffix: str, boundary: str) -> tuple[Quantity, ...]:
             source=source,
             description="Koenderink's shape index at the scale of --rings or --radius: +1 or −1 at umbilics; "
             "null where both curvatures bend a star by no more than the last digit of the coordinates.",
+            after=after,
             **_INDEX,
         ),
         Quantity(
@@ -61,6 +62,7 @@ def _shapes(suffix: str, boundary: str) -> tuple[Quantity, ...]:
             boundary=boundary,
             source=source,
             description="Koenderink's curvedness at the scale of --rings or --radius: the size of the bend.",
+            after=f"shape_index_{suffix}",
             **_CURVEDNESS,
         ),
     )
@@ -80,7 +82,7 @@ def _koenderink(
     return null_where(flat, index), curvedness
 
 
-@curvature_pass(provides=_shapes("ring", "null"))
+@curvature_pass(provides=_shapes("ring", "null", after="condition_fit"))
 def ring_shapes(
     surface: Surface, kappa_1_ring: Column, kappa_2_ring: Column, star_area: Column
 ) -> tuple[Column, Column]:
@@ -88,7 +90,7 @@ def ring_shapes(
     return _koenderink(surface, kappa_1_ring, kappa_2_ring, star_area)
 
 
-@curvature_pass(provides=_shapes("corrected", "one-sided, as kappa_1_corrected"))
+@curvature_pass(provides=_shapes("corrected", "one-sided, as kappa_1_corrected", after="curvedness_ring"))
 def corrected_shapes(
     surface: Surface, kappa_1_corrected: Column, kappa_2_corrected: Column, star_area: Column
 ) -> tuple[Column, Column]:
@@ -96,7 +98,7 @@ def corrected_shapes(
     return _koenderink(surface, kappa_1_corrected, kappa_2_corrected, star_area)
 
 
-@curvature_pass(provides=_shapes("fit", "one-sided, as kappa_1_fit"))
+@curvature_pass(provides=_shapes("fit", "one-sided, as kappa_1_fit", after="curvedness_corrected"))
 def fitted_shapes(
     surface: Surface, kappa_1_fit: Column, kappa_2_fit: Column, condition_fit: Column, star_area: Column
 ) -> tuple[Column, Column]:
@@ -108,19 +110,40 @@ def _energy(interior: Flags, h: Column, star_area: Column) -> Column:
     return null_where(~interior, h * h * star_area)
 
 
-@curvature_pass(symbol="H̄² A_p", formula="h_ring² A_p", total="willmore_ring", **_ENERGY)
+@curvature_pass(
+    symbol="H̄² A_p",
+    formula="h_ring² A_p",
+    total="willmore_ring",
+    **_ENERGY,
+    after="curvedness_fit",
+    total_after="helfrich",
+)
 def willmore_ring(interior: Flags, h_ring: Column, star_area: Column) -> Column:
     """Willmore energy of the star from the mean curvature of the neighbourhood, a measure without unit."""
     return _energy(interior, h_ring, star_area)
 
 
-@curvature_pass(symbol="Ĥ² A_p", formula="h_corrected² A_p", total="willmore_corrected", **_ENERGY)
+@curvature_pass(
+    symbol="Ĥ² A_p",
+    formula="h_corrected² A_p",
+    total="willmore_corrected",
+    **_ENERGY,
+    after="willmore_ring",
+    total_after="willmore_ring",
+)
 def willmore_corrected(interior: Flags, h_corrected: Column, star_area: Column) -> Column:
     """Willmore energy of the star from the corrected mean curvature: that of the smooth surface behind a rough mesh."""
     return _energy(interior, h_corrected, star_area)
 
 
-@curvature_pass(symbol="H² A_p", formula="h_fit² A_p", total="willmore_fit", **_ENERGY)
+@curvature_pass(
+    symbol="H² A_p",
+    formula="h_fit² A_p",
+    total="willmore_fit",
+    **_ENERGY,
+    after="willmore_corrected",
+    total_after="willmore_corrected",
+)
 def willmore_fit(interior: Flags, h_fit: Column, star_area: Column) -> Column:
     """Willmore energy of the star from the mean curvature of the local fit, a measure without unit."""
     return _energy(interior, h_fit, star_area)

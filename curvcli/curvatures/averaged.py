@@ -64,6 +64,7 @@ def ring_sums(
     length_exponent=-2,
     preserves="K_ring times the area of the neighbourhood is its exact Gauss curvature",
     **_SHARED,
+    after="helfrich",
 )
 def K_ring(surface: Surface, ring_K: Column, ring_area: Column) -> Column:
     """Gauss curvature of the neighbourhood per area: the exact measure at the scale of --rings or --radius."""
@@ -78,6 +79,7 @@ def K_ring(surface: Surface, ring_K: Column, ring_area: Column) -> Column:
     parity="odd",
     preserves="Σ**H**_p is the force on the rim of the neighbourhood, exactly",
     **_SHARED,
+    after="K_ring",
 )
 def h_ring(
     surface: Surface, ring_H_vec: VectorColumn, ring_vector: VectorColumn, ring_area: Column, ring_extent: Column
@@ -108,6 +110,7 @@ _KAPPA: dict[str, Any] = {
             description="Larger principal curvature of the neighbourhood, from its curvature tensor.",
             partner="kappa_2_ring",
             **_KAPPA,
+            after="h_ring",
         ),
         Quantity(
             "kappa_2_ring",
@@ -116,6 +119,7 @@ _KAPPA: dict[str, Any] = {
             description="Smaller principal curvature of the neighbourhood, from its curvature tensor.",
             partner="kappa_1_ring",
             **_KAPPA,
+            after="kappa_1_ring",
         ),
     )
 )

@@ -22,6 +22,7 @@ from .star import null_where
     preserves="invariant under Möbius transformations",
     boundary="null; also where n_e ≠ 2",
     source="Sullivan, CMC and Willmore surfaces; Bobenko, A conformal energy for simplicial surfaces",
+    after="kappa_across",
 )
 def beta(surface: Surface, degenerate_face: Flags) -> Column:
     """Exterior intersection angle of the circumcircles of the edge's two faces."""
@@ -53,6 +54,8 @@ def beta(surface: Surface, degenerate_face: Flags) -> Column:
     preserves="invariant under Möbius transformations; 0 on meshes inscribed in a sphere with convex stars",
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces; Bobenko, A conformal energy for simplicial surfaces",
+    after="willmore_normal",
+    total_after="willmore_normal",
 )
 def willmore_conformal(surface: Surface, beta: Column) -> Column:
     """Bobenko's conformal energy of the vertex, never negative.

@@ -90,6 +90,7 @@ def _averaged(surface: Surface, scale: Scale, measures: Floats, defects: Column)
     length_exponent=-2,
     signed=True,
     **_SHARED,
+    after="kappa_2_ring",
 )
 def K_corrected(corrected_gauss: Column) -> Column:
     """Gauss curvature estimated from interpolated normals at the scale of --rings or --radius.
@@ -112,6 +113,7 @@ _DENSITY: dict[str, Any] = {"kind": "density", "length_exponent": -1, "parity": 
     formula="Σμ₁/Σμ₀ over the neighbourhood, sharpened; of each face μ₁ = ½⟨ū, e₁ × d₂ + d₁ × e₂⟩",
     mean_degree=1,
     **_DENSITY,
+    after="K_corrected",
 )
 def h_corrected(surface: Surface, corrected_tensor: Column) -> Column:
     """Mean curvature κ₁ + κ₂ estimated from interpolated normals, positive where convex.
@@ -130,6 +132,7 @@ def h_corrected(surface: Surface, corrected_tensor: Column) -> Column:
             description=f"Larger principal curvature estimated from interpolated normals.{_TENSOR_OF_A_FACE}",
             partner="kappa_2_corrected",
             **_DENSITY,
+            after="h_corrected",
         ),
         Quantity(
             "kappa_2_corrected",
@@ -138,6 +141,7 @@ def h_corrected(surface: Surface, corrected_tensor: Column) -> Column:
             description=f"Smaller principal curvature estimated from interpolated normals.{_TENSOR_OF_A_FACE}",
             partner="kappa_1_corrected",
             **_DENSITY,
+            after="kappa_1_corrected",
         ),
     )
 )
@@ -166,6 +170,7 @@ _LINE: dict[str, Any] = {"kind": "direction", "vector": True, "line": True, **_S
             description="Direction of kappa_1_corrected, a line; null also at umbilics and without an orientation.",
             partner="dir_2_corrected",
             **_LINE,
+            after="kappa_2_corrected",
         ),
         Quantity(
             "dir_2_corrected",
@@ -174,6 +179,7 @@ _LINE: dict[str, Any] = {"kind": "direction", "vector": True, "line": True, **_S
             description="Direction of kappa_2_corrected, a line; null also at umbilics and without an orientation.",
             partner="dir_1_corrected",
             **_LINE,
+            after="dir_1_corrected",
         ),
     )
 )

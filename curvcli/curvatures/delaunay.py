@@ -9,7 +9,7 @@ from ..mesh.topology import next_corner
 from ..support.arrays import Column, Flags, Floats
 from ..support.blocks import slices
 from .kernels.intrinsic_delaunay import IntrinsicTriangulation
-from .quantity import Quantity
+from .quantity import FlagNotice, Quantity
 from .registry import curvature_pass
 from .star import null_where
 
@@ -26,8 +26,19 @@ from .star import null_where
             "faces, stay; the cell may be negative beyond them",
             source="Sullivan, Discrete surfaces; Bobenko and Springborn, A discrete Laplace–Beltrami operator for "
             "simplicial surfaces",
+            after="A_mixed",
         ),
-        Quantity("voronoi_unfinished", kind="flag", public=False),
+        Quantity(
+            "voronoi_unfinished",
+            kind="flag",
+            public=False,
+            notice=FlagNotice(
+                "voronoi_unfinished",
+                "[vertex|vertices] whose Voronoi cell would take too many flips to find; it is left empty",
+                "--area mixed needs none; a mesh without long fans of thin triangles needs few",
+                after="no_graph",
+            ),
+        ),
     )
 )
 def delaunay(surface: Surface) -> tuple[Column | Flags, ...]:

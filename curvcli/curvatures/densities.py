@@ -17,6 +17,7 @@ from .star import ratio
     boundary="null",
     source="Sullivan, Discrete surfaces",
     pointwise=True,
+    after="h_normal",
 )
 def K_density(interior: Flags, K: Column, cell_area: Column) -> Column:
     """Gauss curvature per area; exact in sum, but on irregular triangulations it does not converge pointwise."""

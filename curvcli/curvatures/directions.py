@@ -35,6 +35,7 @@ _UMBILIC = 512 * EPSILON
             partner="dir_2",
             description="Direction of κ₁, a line: of unit length, its largest component positive.",
             **_SHARED,  # type: ignore[arg-type]
+            after="kappa_max",
         ),
         Quantity(
             "dir_2",
@@ -43,6 +44,7 @@ _UMBILIC = 512 * EPSILON
             partner="dir_1",
             description="Direction of κ₂, a line: of unit length, its largest component positive.",
             **_SHARED,  # type: ignore[arg-type]
+            after="dir_1",
         ),
     )
 )

@@ -25,6 +25,8 @@ from .star import null_where
             boundary="same",
             source="Sullivan, Discrete surfaces",
             description="Dirichlet energy of the identity on the face, by cotangents; null on degenerate faces.",
+            after="normal",
+            total_after="willmore_conformal",
         ),
         Quantity("dirichlet_gradient", public=False, vector=True, length_exponent=1),
         Quantity("dirichlet_terms", on="face", public=False, length_exponent=2),

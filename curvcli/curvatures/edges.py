@@ -11,6 +11,7 @@ from ..mesh.topology import InnerEdges
 from ..mesh.triangles import EPSILON, cross, dot, span
 from ..support.arrays import Column, Flags, Mask, VectorColumn
 from ..support.blocks import for_each, slices
+from .quantity import FlagNotice
 from .registry import curvature_pass
 from .star import null_where
 
@@ -30,6 +31,7 @@ FOLD = 8 * EPSILON
     boundary="same",
     source="curvcli conventions",
     column="length",
+    after="",
 )
 def edge_length(surface: Surface) -> Column:
     """Length of the edge."""
@@ -54,6 +56,7 @@ def edge_length(surface: Surface) -> Column:
     preserves="Steiner: the area at distance t grows by t Σ θ_e|e|",
     boundary="null; also where n_e ≠ 2; its size where the surface has no orientation; +π where it folds onto itself",
     source="Sullivan, Discrete surfaces",
+    after="edge_length",
 )
 def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
     """Exterior dihedral angle of the edge, positive where convex."""
@@ -82,7 +85,17 @@ def theta(surface: Surface, unit_normal: VectorColumn) -> Column:
     return angle
 
 
-@curvature_pass(on="edge", kind="flag", public=False)
+@curvature_pass(
+    on="edge",
+    kind="flag",
+    public=False,
+    notice=FlagNotice(
+        "folded_edges",
+        "[edge|edges] where the surface folds onto itself; H_tan has no value there",
+        "H_theta and H_sin have one; sums of H_tan leave such edges out",
+        after="clamped_radicand",
+    ),
+)
 def folded(theta: Column) -> Flags:
     """Mask of the edges folded by π, to rounding."""
     mask: Flags = np.pi - np.abs(theta) <= FOLD
@@ -107,6 +120,7 @@ def _sides(surface: Surface, edges: InnerEdges) -> tuple[NDArray[np.intp], NDArr
     boundary="null; defined for any n_e ≥ 2, needs no orientation",
     source="Sullivan, Discrete surfaces",
     column="H_vec",
+    after="theta",
 )
 def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
     """Mean curvature vector of the edge: minus the sum of its outward conormals, |e| long each."""
@@ -141,6 +155,8 @@ def edge_H_vec(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
     preserves="force_balance: the size of H_e",
     boundary="null",
     source="Sullivan, Discrete surfaces",
+    after="edge_H_vec",
+    total_after="H_vec",
 )
 def H_sin(theta: Column, edge_length: Column) -> Column:
     """Mean curvature of the edge by the sine, as force balance has it."""
@@ -159,6 +175,8 @@ def H_sin(theta: Column, edge_length: Column) -> Column:
     preserves="Steiner's formula and mixed volumes",
     boundary="null",
     source="Sullivan, Discrete surfaces",
+    after="H_sin",
+    total_after="H_sin",
 )
 def H_theta(theta: Column, edge_length: Column) -> Column:
     """Mean curvature of the edge by the angle, as Steiner's formula has it."""
@@ -177,6 +195,8 @@ def H_theta(theta: Column, edge_length: Column) -> Column:
     preserves="the area of parallel surfaces whose edges meet in mitres",
     boundary="null; also where the surface folds onto itself: the mitre there has no end",
     source="Sullivan, Discrete surfaces",
+    after="H_theta",
+    total_after="H_theta",
 )
 def H_tan(theta: Column, edge_length: Column, folded: Flags) -> Column:
     """Mean curvature of the edge by the tangent, as mitred parallel surfaces have it."""
@@ -194,6 +214,7 @@ def H_tan(theta: Column, edge_length: Column, folded: Flags) -> Column:
     preserves="1/r on a cylinder of radius r whose facets are equally wide and inscribed, however long they are",
     boundary="null; also where θ_e is",
     source="curvcli",
+    after="H_tan",
 )
 def kappa_across(surface: Surface, theta: Column, edge_length: Column, face_area: Column) -> Column:
     """Curvature across the edge: its bend per width of its two faces, positive where convex.

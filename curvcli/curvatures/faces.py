@@ -33,6 +33,7 @@ def unit_normal(surface: Surface, degenerate_face: Flags) -> VectorColumn:
     boundary="same",
     source="curvcli conventions",
     column="area",
+    after="",
 )
 def area_of_face(face_area: Column) -> Column:
     """Area of the face."""
@@ -49,6 +50,7 @@ def area_of_face(face_area: Column) -> Column:
     preserves="Σ area(T) ν_T = vector area",
     boundary="same",
     source="curvcli conventions",
+    after="area_of_face",
 )
 def normal(surface: Surface, unit_normal: VectorColumn) -> VectorColumn:
     """Unit normal of the face, right-handed with its oriented winding; null on degenerate faces."""

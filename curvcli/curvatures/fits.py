@@ -15,7 +15,7 @@ from ..support.blocks import for_each
 from .kernels.jets import QUADRATIC, Jets, fit
 from .kernels.moments import Moments, moments
 from .kernels.tensor import line
-from .quantity import Quantity
+from .quantity import FlagNotice, Quantity
 from .registry import curvature_pass
 from .star import null_where
 
@@ -55,6 +55,7 @@ _HALF_SPHERE = 0.5
             preserves="nothing in sum; exact on planes, of second order and more on smooth surfaces",
             description="Gauss curvature of the local fit, per area: the best estimate at a point of a smooth surface.",
             **_DENSITY,
+            after="dir_2_corrected",
         ),
         Quantity(
             "h_fit",
@@ -66,6 +67,7 @@ _HALF_SPHERE = 0.5
             preserves="nothing in sum; exact on planes, of second order and more on smooth surfaces",
             description="Mean curvature κ₁ + κ₂ of the local fit, positive where convex.",
             **_DENSITY,
+            after="K_fit",
         ),
         Quantity(
             "kappa_1_fit",
@@ -74,6 +76,7 @@ _HALF_SPHERE = 0.5
             partner="kappa_2_fit",
             description="Larger principal curvature of the local fit.",
             **_KAPPA,
+            after="h_fit",
         ),
         Quantity(
             "kappa_2_fit",
@@ -82,6 +85,7 @@ _HALF_SPHERE = 0.5
             partner="kappa_1_fit",
             description="Smaller principal curvature of the local fit.",
             **_KAPPA,
+            after="kappa_1_fit",
         ),
         Quantity(
             "dir_1_fit",
@@ -90,6 +94,7 @@ _HALF_SPHERE = 0.5
             partner="dir_2_fit",
             description="Direction of κ₁ of the local fit, a line: of unit length, its largest component positive.",
             **_LINE,
+            after="kappa_2_fit",
         ),
         Quantity(
             "dir_2_fit",
@@ -98,6 +103,7 @@ _HALF_SPHERE = 0.5
             partner="dir_1_fit",
             description="Direction of κ₂ of the local fit, a line: of unit length, its largest component positive.",
             **_LINE,
+            after="dir_1_fit",
         ),
         Quantity(
             "condition_fit",
@@ -107,8 +113,20 @@ _HALF_SPHERE = 0.5
             preserves="invariant under scaling",
             description="Condition of the local fit of degree 2: how much it can magnify errors of the positions.",
             **_SHARED,
+            after="dir_2_fit",
         ),
-        Quantity("no_graph", kind="flag", public=False),
+        Quantity(
+            "no_graph",
+            kind="flag",
+            public=False,
+            notice=FlagNotice(
+                "no_graph",
+                "[vertex|vertices] whose neighbourhood{scale} folds over or bends more than a graph over its tangent "
+                "plane can; local fits are undefined there",
+                "*_corrected needs no plane; take a smaller scale or a finer mesh",
+                after="h_below_noise",
+            ),
+        ),
     )
 )
 def local_fit(surface: Surface, scale: Scale, star_vector: VectorColumn) -> tuple[Column | VectorColumn | Flags, ...]:

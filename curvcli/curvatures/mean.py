@@ -23,6 +23,7 @@ _ROUNDING = 8 * EPSILON
     preserves="ΣA_p = area",
     boundary="same",
     source="Sullivan, Discrete surfaces",
+    after="K_abs",
 )
 def A(referenced: Flags, star_area: Column) -> Column:
     """Area of the vertex: a third of its star's."""
@@ -39,6 +40,8 @@ def A(referenced: Flags, star_area: Column) -> Column:
     preserves="volume: Σ p·A_p = 3 vol on closed surfaces; vector_area",
     boundary="same",
     source="Sullivan, Discrete surfaces",
+    after="A_voronoi",
+    total_after="kappa_g",
 )
 def A_vec(without_orientation: Flags, star_vector: VectorColumn) -> VectorColumn:
     """Vector area of the vertex: the gradient of the volume; null on patches without an orientation."""
@@ -53,6 +56,7 @@ def A_vec(without_orientation: Flags, star_vector: VectorColumn) -> VectorColumn
     preserves="area_gradient: Σ∇_p area = 0 and Σ p·∇_p area = 2 area",
     boundary="one cotangent on a boundary edge",
     source="Sullivan, Discrete surfaces",
+    after="H_vec",
 )
 def area_gradient(star_curvature: VectorColumn) -> VectorColumn:
     """Gradient of the area with respect to the vertex; null at corners of degenerate faces."""
@@ -69,6 +73,8 @@ def area_gradient(star_curvature: VectorColumn) -> VectorColumn:
     preserves="force_balance: Σ_∂ η|e| = Σ H_p; torque_balance; position_balance",
     boundary="same (a curvature measure): the edges inside the surface count, those of the boundary do not",
     source="Sullivan, Discrete surfaces",
+    after="A_vec",
+    total_after="A_vec",
 )
 def H_vec(surface: Surface, star_curvature: VectorColumn) -> VectorColumn:
     """Mean curvature vector of the vertex, a measure; points inwards where the surface is convex."""
@@ -93,6 +99,7 @@ def H_vec(surface: Surface, star_curvature: VectorColumn) -> VectorColumn:
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
+    after="area_gradient",
 )
 def h(interior: Flags, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Mean curvature of the vertex without its sign; null where |A_vec| < 1e-12 A."""
@@ -118,6 +125,7 @@ def pointed(interior: Flags, length: Column, area: Column) -> Flags:
     boundary="null; also where **H**_p ⊥ **A**_p to rounding",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
+    after="h",
 )
 def h_signed(
     without_orientation: Flags, h: Column, H_vec: VectorColumn, star_vector: VectorColumn, star_extent: Column
@@ -160,6 +168,7 @@ def with_sign(size: Column, H_vec: VectorColumn, vector: VectorColumn, extent: C
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces; Hsu, Kusner and Sullivan, Minimizing the squared mean curvature",
     pointwise=True,
+    after="h_signed",
 )
 def h_hks(interior: Flags, H_vec: VectorColumn, star_area: Column) -> Column:
     """Mean curvature vector per area."""
@@ -178,6 +187,7 @@ def h_hks(interior: Flags, H_vec: VectorColumn, star_area: Column) -> Column:
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
+    after="h_hks",
 )
 def h_perp(
     interior: Flags, without_orientation: Flags, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column
@@ -209,6 +219,7 @@ def normal_ratio(interior: Flags, H_vec: VectorColumn, star_vector: VectorColumn
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
+    after="h_perp",
 )
 def h_normal(without_orientation: Flags, normal_ratio: Column) -> Column:
     """Mean curvature when the vertex moves along H_vec, positive where convex; null where |H·A| < 1e-12 |H||A|."""

@@ -27,6 +27,8 @@ from .setting import Setting
             parity="odd",
         )
     },
+    after="willmore_conformal",
+    total_after="dirichlet",
 )
 def helfrich(
     surface: Surface, h: Column, h_signed: Column, star_area: Column, face_area: Column, c0: float | Column = 0.0

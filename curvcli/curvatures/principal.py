@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..mesh.precision import is_single, last_place
+from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
 from ..support.arrays import Column, Flags
-from .quantity import Quantity
+from .quantity import FlagNotice, Quantity
 from .registry import curvature_pass
 from .star import null_where
 
@@ -27,15 +31,52 @@ _SHARED: dict[str, Any] = {
 }
 
 
+def _clamped(surface: Surface, columns: Mapping[str, Any]) -> NDArray[np.intp]:
+    """Vertices with a clamped radicand; flat ones, where K is below the rounding of the coordinates, are left out.
+
+    Coordinates that change by one unit in the last place turn the edges of a flat star by about place/√A, and K is
+    quadratic in that.
+    """
+    clamped = np.flatnonzero(columns["kappa_clamped"])
+    if not len(clamped):
+        return clamped
+    place = last_place(surface, np.float32 if is_single(surface.xyz_given) else np.float64)
+    turned = surface.degree[clamped] * place / np.sqrt(columns["star_area"][clamped])
+    kept: NDArray[np.intp] = clamped[np.abs(columns["K"][clamped]) > turned * turned]
+    return kept
+
+
 @curvature_pass(
     provides=(
         Quantity(
-            "kappa_1", symbol="κ₁", formula="H/2 + √(H²/4 − K_density), H = h_signed", partner="kappa_2", **_SHARED
+            "kappa_1",
+            symbol="κ₁",
+            formula="H/2 + √(H²/4 − K_density), H = h_signed",
+            partner="kappa_2",
+            **_SHARED,
+            after="K_density",
         ),
         Quantity(
-            "kappa_2", symbol="κ₂", formula="H/2 − √(H²/4 − K_density), H = h_signed", partner="kappa_1", **_SHARED
+            "kappa_2",
+            symbol="κ₂",
+            formula="H/2 − √(H²/4 − K_density), H = h_signed",
+            partner="kappa_1",
+            **_SHARED,
+            after="kappa_1",
         ),
-        Quantity("kappa_clamped", kind="flag", public=False),
+        Quantity(
+            "kappa_clamped",
+            kind="flag",
+            public=False,
+            notice=FlagNotice(
+                "clamped_radicand",
+                "[vertex|vertices] with H² < 4K; [its|their] principal curvatures are taken equal",
+                "H and K are discretised apart: at umbilics, as on spheres, a small error does it; elsewhere the mesh "
+                "is coarse or noisy",
+                after="",
+                select=_clamped,
+            ),
+        ),
     ),
     pointwise=True,
 )
@@ -63,6 +104,7 @@ def principal_curvatures(h_signed: Column, K_density: Column, cell_area: Column)
     boundary="null",
     source="curvcli; κ₁ and κ₂ as in Sullivan, Curvatures of smooth surfaces",
     pointwise=True,
+    after="kappa_2",
 )
 def kappa_max(h: Column, K_density: Column) -> Column:
     """The larger of |κ₁| and |κ₂|: how tightly the surface bends, inwards or outwards."""
@@ -86,6 +128,7 @@ def koenderink(kappa_1: Column, kappa_2: Column) -> tuple[Column, Column]:
     boundary="null",
     source="Sullivan, Curvatures of smooth surfaces; Koenderink and van Doorn, Surface shape and curvature scales",
     pointwise=True,
+    after="dir_2",
 )
 def shape_index(kappa_1: Column, kappa_2: Column, cell_area: Column) -> Column:
     """Koenderink's shape index; +1 or −1 at umbilics, null where κ₁ and κ₂ are both no more than K's rounding makes."""
@@ -103,6 +146,7 @@ def shape_index(kappa_1: Column, kappa_2: Column, cell_area: Column) -> Column:
     boundary="null",
     source="Sullivan, Curvatures of smooth surfaces; Koenderink and van Doorn, Surface shape and curvature scales",
     pointwise=True,
+    after="shape_index",
 )
 def curvedness(h: Column, K_density: Column) -> Column:
     """Koenderink's curvedness: how strongly the surface is bent, whichever way."""

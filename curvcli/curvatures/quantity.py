@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import defaultdict
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, TypeVar
 
 from ..mesh.scale import PARAMETERS
 from .setting import Setting
@@ -22,6 +23,22 @@ CELL_AREAS = {"barycentric": "A", "mixed": "A_mixed", "voronoi": "A_voronoi"}
 
 
 @dataclass(frozen=True)
+class FlagNotice:
+    """The notice of the elements that a hidden flag marks.
+
+    code: stable, for programs. message, hint: `[one|many]` in them follows the number of elements, and `{scale}` is the
+    scale of the flag in brackets where there are several. after: the code of the notice before it among those of flags.
+    select: indices of the elements from the surface and the columns; by default all that the flag marks.
+    """
+
+    code: str
+    message: str
+    hint: str
+    after: str | None = None
+    select: Callable[[Any, Any], Any] | None = None
+
+
+@dataclass(frozen=True)
 class Quantity:
     """Declaration of one column.
 
@@ -34,7 +51,8 @@ class Quantity:
     partner: the quantity it changes places with under reversal, as the larger curvature does with the smaller.
     line: a direction without a sign, ±d are the same. rooted: a root of a difference, of which rounding takes half of
     the digits; None is rooted where something it needs is. energy: a multiple of the bending rigidity κ, which
-    `--bending-rigidity` turns into k_BT or J.
+    `--bending-rigidity` turns into k_BT or J. after: the column that it follows in the table of its element, "" for the
+    first; None comes last. total_after: the total that its total follows in the report. notice: of a hidden flag.
     """
 
     name: str
@@ -59,6 +77,9 @@ class Quantity:
     line: bool = False
     rooted: bool | None = None
     energy: bool = False
+    after: str | None = None
+    total_after: str | None = None
+    notice: FlagNotice | None = None
 
     @property
     def stem(self) -> str:
@@ -107,3 +128,31 @@ class Provider(Protocol):
     def provider(self, quantity: str) -> Step: ...
     def depends_on_scale(self, name: str) -> bool: ...
     def looks_around(self, name: str) -> bool: ...
+
+
+_Entry = TypeVar("_Entry")
+
+
+def in_order(
+    entries: Iterable[_Entry], name: Callable[[_Entry], str], after: Callable[[_Entry], str | None]
+) -> list[_Entry]:
+    """Sort entries so that each comes behind the one that it names, whatever order they are declared in.
+
+    after: "" for the first; an entry that names none, or one that is not there, comes last. Of two behind the same
+    entry, the one that fewer others follow comes first.
+    """
+    listed = list(entries)
+    names = {name(entry) for entry in listed}
+    followers: dict[str | None, list[_Entry]] = defaultdict(list)
+    for entry in listed:
+        before = after(entry)
+        followers[before if before == "" or before in names else None].append(entry)
+
+    def chain(before: str | None) -> list[_Entry]:
+        """The entries behind one, each followed by its own."""
+        chains = [[entry, *chain(name(entry))] for entry in followers[before]]
+        if before is not None:
+            chains.sort(key=lambda each: (len(each), name(each[0])))
+        return [entry for each in chains for entry in each]
+
+    return chain("") + chain(None)

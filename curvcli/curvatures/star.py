@@ -31,7 +31,13 @@ def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
         Quantity("star_curvature", public=False, vector=True, length_exponent=1),
         Quantity("star_extent", public=False, length_exponent=1),
         Quantity(
-            "face_area", on="face", public=False, length_exponent=2, total="area", description="Area of the face."
+            "face_area",
+            on="face",
+            public=False,
+            length_exponent=2,
+            total="area",
+            description="Area of the face.",
+            total_after="",
         ),
         Quantity("degenerate_face", on="face", kind="flag", public=False),
         Quantity("coincident", kind="flag", public=False),

@@ -16,6 +16,7 @@ from .registry import curvature_pass
     boundary="boundary: some edge at the vertex has one face",
     source="curvcli conventions",
     labels=STATUS,
+    after="",
 )
 def status(surface: Surface, degenerate: Flags) -> Codes:
     """Kind of the vertex; codes index `interior, boundary, degenerate, nonmanifold, unreferenced`."""
@@ -31,6 +32,7 @@ def status(surface: Surface, degenerate: Flags) -> Codes:
     kind="count",
     boundary="same",
     source="curvcli conventions",
+    after="status",
 )
 def degree(surface: Surface) -> Counts:
     """Number of edges at the vertex, 0 where no face uses it."""

@@ -18,7 +18,7 @@ from ..mesh.surface import Surface
 from ..mesh.triangles import Triangles, cross, dot, triangles
 from ..support.arrays import Column, Flags, Floats, Index, VectorColumn
 from ..support.blocks import slices
-from .quantity import Quantity
+from .quantity import FlagNotice, Quantity
 from .registry import curvature_pass
 from .star import null_where
 
@@ -34,6 +34,16 @@ def deviation(surface: Surface, noise: float | None) -> float:
     return float(np.ldexp(given, -surface.unit_exponent))
 
 
+def _below_noise(code: str, name: str, after: str) -> FlagNotice:
+    """The notice of vertices whose value is below its uncertainty."""
+    return FlagNotice(
+        code,
+        f"[vertex|vertices] where |{name}| is below its own uncertainty {name}_sigma",
+        f"noise of the coordinates alone explains {name} there; estimates over more rings average noise out",
+        after,
+    )
+
+
 @curvature_pass(
     provides=(
         Quantity(
@@ -46,8 +56,9 @@ def deviation(surface: Surface, noise: float | None) -> float:
             "stars, whose first vanishes",
             source="first-order propagation of errors; curvcli",
             description="Standard deviation of K under independent noise of each coordinate (`--noise`).",
+            after="willmore_fit",
         ),
-        Quantity("below_noise", kind="flag", public=False),
+        Quantity("below_noise", kind="flag", public=False, notice=_below_noise("below_noise", "K", "folded_edges")),
     )
 )
 def angle_defect_uncertainty(surface: Surface, noise: float | None, K: Column) -> tuple[Column | Flags, ...]:
@@ -93,8 +104,9 @@ def angle_defect_uncertainty(surface: Surface, noise: float | None, K: Column) -
             boundary="null",
             preserves="the standard deviation of h_signed over noisy copies, to first order",
             source="first-order propagation of errors; curvcli",
+            after="K_sigma",
         ),
-        Quantity("h_below_noise", kind="flag", public=False),
+        Quantity("h_below_noise", kind="flag", public=False, notice=_below_noise("h_below_noise", "h", "below_noise")),
     )
 )
 def h_sigma(

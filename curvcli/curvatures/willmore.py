@@ -20,6 +20,8 @@ from .star import ratio
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
+    after="curvedness",
+    total_after="K_abs",
 )
 def willmore(h: Column, star_area: Column) -> Column:
     """Willmore energy of the star from h, a measure without unit."""
@@ -35,6 +37,8 @@ def willmore(h: Column, star_area: Column) -> Column:
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces; Hsu, Kusner and Sullivan, Minimizing the squared mean curvature",
     pointwise=True,
+    after="willmore",
+    total_after="willmore",
 )
 def willmore_hks(interior: Flags, H_vec: VectorColumn, star_area: Column) -> Column:
     """Willmore energy of the star from the mean curvature vector and the area."""
@@ -50,6 +54,8 @@ def willmore_hks(interior: Flags, H_vec: VectorColumn, star_area: Column) -> Col
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
+    after="willmore_hks",
+    total_after="willmore_hks",
 )
 def willmore_perp(interior: Flags, H_vec: VectorColumn, star_vector: VectorColumn, star_area: Column) -> Column:
     """Willmore energy of the star from h_perp; needs no global orientation."""
@@ -67,6 +73,8 @@ def willmore_perp(interior: Flags, H_vec: VectorColumn, star_vector: VectorColum
     boundary="null",
     source="Sullivan, CMC and Willmore surfaces",
     pointwise=True,
+    after="willmore_perp",
+    total_after="willmore_perp",
 )
 def willmore_normal(normal_ratio: Column, star_area: Column) -> Column:
     """Willmore energy of the star from h_normal; needs no global orientation."""
