@@ -9,6 +9,16 @@ from .curvatures.setting import Setting
 from .support.arrays import Codes, Column, Counts, Flags, VectorColumn
 
 __all__ = [
-    *("Codes", "Column", "Counts", "DerivedTotal", "FlagNotice", "Flags", "Pass", "Quantity", "Setting"),
-    *("VectorColumn", "curvature_pass", "derived_total"),
+    "Codes",
+    "Column",
+    "Counts",
+    "DerivedTotal",
+    "FlagNotice",
+    "Flags",
+    "Pass",
+    "Quantity",
+    "Setting",
+    "VectorColumn",
+    "curvature_pass",
+    "derived_total",
 ]

@@ -10,6 +10,7 @@ import pytest
 
 import curvcli
 from curvcli.curvatures.catalogue import CORE, loaded, resolve
+from curvcli.curvatures.derived import derived
 from curvcli.curvatures.engine import arguments, evaluate, needs, schedule
 from curvcli.curvatures.quantity import CELL_AREA, NO_QUANTITIES, Element
 from curvcli.curvatures.registry import Registry, passes
@@ -59,7 +60,10 @@ def test_every_column_of_ours_has_its_place(element: Element, order: tuple[str, 
 def test_every_total_of_ours_has_its_place() -> None:
     assert [q.total for q in passes.totals()] == [key for key in TOTALS if key != "volume"]
     given = meshes.zoo("two_bodies").surface()
-    assert [*curvcli.analyze(given, "all").totals] == list(TOTALS)
+    assert [*curvcli.analyze(given, "all").totals] == [
+        *TOTALS,
+        *(name for name, total in derived.items() if total.beside),
+    ]
 
 
 def test_the_order_of_registration_is_none_of_the_tables() -> None:
