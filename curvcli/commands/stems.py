@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from ..loading.registry import suffixes
+from ..loading.registry import input_formats, suffixes
 
 # Device names of Windows, whatever follows behind a dot.
 _DEVICES = {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))}
@@ -15,14 +15,16 @@ def stem(mesh: str, windows: bool = os.name == "nt") -> str:
 
     The whole name stands where nothing but dots is left without the suffix: `...ply` would be the folder above. A path
     that ends in no name, such as `..`, goes by the folder it means. On Windows a device, such as `NUL`, gets an
-    underscore, and so do the dots and blanks at the end of a name, which Windows leaves out.
+    underscore, and so do the dots and blanks at the end of a name, which Windows leaves out. Surfaces of
+    FreeSurfer, such as lh.white and lh.pial, keep their whole names.
     """
     whole = os.path.basename(mesh)
     if whole in ("", os.curdir, os.pardir):
         whole = os.path.basename(os.path.abspath(mesh)) or "_"
     name = whole
+    kept = {end for one in input_formats().values() if whole.lower().startswith(one.starts) for end in one.endings}
     for suffix in ("gz", *suffixes()):
-        if name.lower().endswith(f".{suffix}"):
+        if suffix not in kept and name.lower().endswith(f".{suffix}"):
             name = name[: -len(suffix) - 1]
     if not name.strip(". "):
         name = whole

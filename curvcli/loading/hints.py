@@ -13,26 +13,19 @@ _VTK = (
     """`python -c "import pyvista; pyvista.read('{path}').extract_surface().save('OUT.ply')"` converts it """
     "(`pip install 'curvcli[pictures]'`)"
 )
-_NIBABEL = (
-    """`python -c "import nibabel, trimesh; trimesh.Trimesh(*nibabel.{reader}, process=False).export('OUT.ply')"` """
-    "converts it (`pip install nibabel`)"
-)
-_GIFTI = _NIBABEL.replace("{reader}", "load('{path}').agg_data()")
-_FREESURFER = _NIBABEL.replace("{reader}", "freesurfer.read_geometry('{path}')")
 _CAD = "export it as STL from a CAD program"
 _GMSH = f"{_CAD}, or by `gmsh {{file}} -2 -o OUT.stl`"
 _SCENE = "export it as PLY, OBJ or STL from Blender"
 _POINTS = "points have no faces: reconstruct a surface first, for example with MeshLab"
 _VOLUME = "a volume has no faces: extract a surface first, for example with skimage.measure.marching_cubes"
 _UNPACK = "unpack it first"
+_LABELS = "`curvcli analyze SURFACE --regions {file}` takes the labels"
 _TABLE = "`curvcli compare` reads reports and tables"
 
 # By suffix; every command was run.
 _WAYS_OUT = {
     **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "msh", "nas", "tec", "vol"), _MESHIO),
     **dict.fromkeys(("vtk", "vtp", "vtu"), _VTK),
-    "gii": _GIFTI,
-    **dict.fromkeys(("inflated", "orig", "pial", "smoothwm", "sphere", "white"), _FREESURFER),
     **dict.fromkeys(("step", "stp", "iges", "igs", "brep"), _GMSH),
     **dict.fromkeys(
         ("3dm", "3mf", "amf", "catpart", "dwg", "dxf", "f3d", "fcstd", "ipt", "jt", "prt", "scad", "sldprt", "x_t"),
@@ -40,9 +33,10 @@ _WAYS_OUT = {
     ),
     **dict.fromkeys(("3ds", "abc", "blend", "c4d", "dae", "fbx", "ma", "max", "mb", "usd", "usda", "usdz"), _SCENE),
     "fe": "the command file stl.cmd of the Surface Evolver writes it as STL",
-    **dict.fromkeys(("asc", "e57", "las", "laz", "pcd", "pts", "xyz"), _POINTS),
+    **dict.fromkeys(("e57", "las", "laz", "pcd", "pts", "xyz"), _POINTS),
     **dict.fromkeys(("dcm", "mha", "mrc", "nhdr", "nii", "nrrd", "tif", "tiff"), _VOLUME),
     **dict.fromkeys(("7z", "bz2", "tar", "tgz", "xz", "zip", "zst"), _UNPACK),
+    **dict.fromkeys(("annot", "label"), _LABELS),
     **dict.fromkeys(("csv", "json", "parquet", "tsv"), _TABLE),
 }
 _PLAIN = re.compile(r"[\w./ +-]+", re.ASCII)
@@ -53,8 +47,11 @@ _LOOKED_AT = 1000
 
 
 def known_suffix(path: str) -> str | None:
-    """The format that the suffix names, in any case and before .gz; None if it names none."""
-    return suffixes().get(suffix_of(path))
+    """The format that the suffix names, in any case and before .gz, or the start of the name; None for none."""
+    suffix, name = suffix_of(path), os.path.basename(path).lower()
+    if suffix in suffixes() or suffix in _WAYS_OUT:
+        return suffixes().get(suffix)
+    return next((one.name for one in input_formats().values() if name.startswith(one.starts)), None)
 
 
 def suffix_of(path: str) -> str:

@@ -13,7 +13,7 @@ from .content import DamagedError, inflate, open_regular, read_limited
 from .entrance import load_through_trimesh
 from .limits import check_faces, parse_weld
 from .pieces import Pieces
-from .recognise import format_of_name, free_start, recognise
+from .recognise import format_of_file, free_start, recognise
 from .registry import ParserOptions, input_formats
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def _read(
         if isinstance(source, str | bytes | os.PathLike):
             file = stack.enter_context(open_regular(source, max_bytes))
             hashed = stack.enter_context(Pieces(file))
-            kind = kind or format_of_name(path)
+            kind = kind or format_of_file(path, hashed)
         else:
             hashed = stack.enter_context(Pieces(read_limited(source, max_bytes)))
         pieces = hashed

@@ -33,6 +33,20 @@ _WIDE_TEXT = re.compile(
 )
 
 
+def format_of_file(path: str, pieces: Pieces) -> str:
+    """The format of the suffix; else that of the content, if files of that format often have no suffix.
+
+    Errors: InputError for neither.
+    """
+    try:
+        return format_of_name(path)
+    except InputError:
+        for format in by_sign():
+            if format.starts and format.has_sign(pieces):
+                return format.name
+        raise
+
+
 def format_of_name(path: str) -> str:
     """The format of the suffix.
 

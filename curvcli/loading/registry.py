@@ -34,21 +34,24 @@ class ParserOptions(NamedTuple):
 class InputFormat:
     """An input format.
 
-    name: for --input-format, messages and, with a dot, the suffix. suffixes: all of them without the dot, if there are
-    others. parse: makes a MeshFile with this `format` from the content; None: trimesh's own loader for the name reads
-    it. has_sign: tests for the sign of the format without taking bytes. weak_sign: text of other formats may have it
-    too, so their signs are tested first. any_start: tests content of this size that begins like an archive or a web
-    page; the last argument is True if the name promises the format. separate_corners: triangles share no vertices, so
-    `--weld auto` merges equal positions exactly. seams: vertices are cut where normals or texture jump, `--weld auto`
-    merges equal positions exactly, and their rows stay. encodings, rows, digits, keeps, labels, polygons, curves: cells
-    of the table in docs/formats.md. library, extra: module that the parser needs, and the extra of curvcli that
-    installs it.
+    name: for --input-format, messages and, with a dot, the suffix. full_name: in sentences, if it is not the name in
+    capitals. suffixes: all of them without the dot, if there are others. starts: first letters of the names of files
+    that often have no suffix of the format; its content is recognised under any other name too. parse: makes a MeshFile
+    with this `format` from the content; None: trimesh's own loader for the name reads it. has_sign: tests for the sign
+    of the format without taking bytes. weak_sign: text of other formats may have it too, so their signs are tested
+    first. any_start: tests content of this size that begins like an archive or a web page; the last argument is True if
+    the name promises the format. separate_corners: triangles share no vertices, so `--weld auto` merges equal positions
+    exactly. seams: vertices are cut where normals or texture jump, `--weld auto` merges equal positions exactly, and
+    their rows stay. encodings, rows, digits, keeps, labels, polygons, curves: cells of the table in docs/formats.md.
+    library, extra: module that the parser needs, and the extra of curvcli that installs it.
     """
 
     name: str
     has_sign: Callable[[Pieces], bool]
     parse: Callable[[Pieces, ParserOptions], MeshFile] | None = None
+    full_name: str = ""
     suffixes: tuple[str, ...] = ()
+    starts: tuple[str, ...] = ()
     weak_sign: bool = False
     any_start: Callable[[bytes, int, bool], bool] | None = None
     separate_corners: bool = False
@@ -66,7 +69,7 @@ class InputFormat:
     @property
     def title(self) -> str:
         """The name in sentences."""
-        return self.name.upper()
+        return self.full_name or self.name.upper()
 
     @property
     def endings(self) -> tuple[str, ...]:

@@ -14,10 +14,14 @@ from ..errors import Notice
 
 @dataclass(frozen=True)
 class Labels:
-    """One label per polygon, such as its OBJ group: `codes` indexes `names`, -1 for no label."""
+    """One label per polygon or vertex, such as an OBJ group: `codes` indexes `names`, -1 for no label.
+
+    colors: (n, 3) uint8 of the names, None without.
+    """
 
     codes: NDArray[np.int32]
     names: tuple[str, ...]
+    colors: NDArray[np.uint8] | None = None
 
 
 class Polylines(Sequence[NDArray[np.int32]]):
@@ -56,7 +60,8 @@ class MeshFile:
     corners: int32, the corner indices (from 0) of all polygons, concatenated.
     sizes: (P,) int32, corners per polygon, or None when every polygon is a triangle (corners is then 3 P long).
     vertex_properties, polygon_properties: further per-element scalars of a PLY file by name, in file order.
-    polygon_labels: `groups`, `objects`, `materials` of an OBJ file.
+    polygon_labels: `groups`, `objects`, `materials` of an OBJ file, `solids` of an STL file.
+    vertex_labels: labels of vertices by name, such as those of a GIFTI file.
     polylines: vertex indices of each OBJ `l` record.
     welded_to: (V,) the row with the values of a merged row, -1 for a row that keeps its own; None without welding.
     path, sha256: the source (`-` for a stream) and the hash of its bytes, None for arrays made in memory.
@@ -73,6 +78,7 @@ class MeshFile:
     vertex_properties: dict[str, NDArray[np.generic]] = field(default_factory=dict)
     polygon_properties: dict[str, NDArray[np.generic]] = field(default_factory=dict)
     polygon_labels: dict[str, Labels] = field(default_factory=dict)
+    vertex_labels: dict[str, Labels] = field(default_factory=dict)
     polylines: Polylines = NO_POLYLINES
     welded_to: NDArray[np.int32] | None = None
     path: str | None = None

@@ -63,8 +63,7 @@ def test_pyvista_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> Non
         ("part.step", "a CAD program"),
         ("PART.STP", "a CAD program"),
         ("part.SLDPRT", "a CAD program"),
-        ("lh.pial", "freesurfer.read_geometry"),
-        ("lh.surf.gii", "agg_data()"),
+        ("lh.aparc.annot", "--regions"),
         ("head.nii.gz", "marching_cubes"),
         ("scan.las", "points have no faces"),
         ("scene.blend", "Blender"),
@@ -92,7 +91,7 @@ def test_an_unknown_suffix_may_hide_a_known_format(name: str, tmp_path: Path) ->
     assert f"--input-format {names} reads a file of such a format under another name" in refused(path)
 
 
-@pytest.mark.parametrize("name", ["a'b.msh", 'a"$(touch gone).vtp', "a`touch gone`.mesh", "a\nb.gii", "a{plain}.vtk"])
+@pytest.mark.parametrize("name", ["a'b.msh", 'a"$(touch gone).vtp', "a`touch gone`.mesh", "a\nb.vtu", "a{plain}.vtk"])
 def test_a_name_ends_no_quotes(name: str, tmp_path: Path) -> None:
     (tmp_path / name).write_bytes(b"anything")
     message = refused(tmp_path / name)
