@@ -11,7 +11,7 @@ from ..errors import InputError
 
 
 def checked_corners(
-    indices: NDArray[Any], sizes: NDArray[np.int64] | int, name: str, vertices: int, lowest: int = 0
+    indices: NDArray[Any], sizes: NDArray[np.integer[Any]] | int, name: str, vertices: int, lowest: int = 0
 ) -> NDArray[np.int32]:
     """Check that all indices are whole numbers in range, and return them as int32.
 
@@ -32,7 +32,7 @@ def checked_corners(
     return np.ascontiguousarray(indices, np.int32)
 
 
-def _polygon(corner: int, sizes: NDArray[np.int64] | int) -> int:
+def _polygon(corner: int, sizes: NDArray[np.integer[Any]] | int) -> int:
     """The polygon of a corner."""
     if isinstance(sizes, int):
         return corner // sizes

@@ -47,9 +47,8 @@ def read_mesh_file(
         raise UsageError(f"input format `{input_format}` is not known; {', '.join(formats)} are")
     path = os.fsdecode(source) if isinstance(source, str | bytes | os.PathLike) else "-"
     try:
-        return _read(
-            source, path, kind, weld, max_bytes, ParserOptions(weld != "none", max_faces, normals == "file", texture)
-        )
+        options = ParserOptions(weld != "none", max_faces, normals == "file", texture, max_bytes)
+        return _read(source, path, kind, weld, max_bytes, options)
     except InputError as error:
         place, hint = error.place and escape_text(error.place), error.hint and escape_text(error.hint)
         raise InputError(escape_text(error.problem), path=escape_text(path), place=place, hint=hint) from None

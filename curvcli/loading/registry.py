@@ -21,13 +21,15 @@ class ParserOptions(NamedTuple):
     """Options of a parser.
 
     merge: merge equal positions, where the format gives each triangle corners of its own. max_faces: refuse more.
-    normals, texture: read normals, texture coordinates, where the format has records of them.
+    normals, texture: read normals, texture coordinates, where the format has records of them. max_bytes: refuse data
+    that expand to more.
     """
 
     merge: bool = True
     max_faces: int | None = None
     normals: bool = False
     texture: bool = False
+    max_bytes: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

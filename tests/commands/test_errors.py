@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from curvcli.loading.registry import input_formats
 from tests.helpers.cli.program import CUBE, DISK, MOBIUS, ROOT, command, curvcli, environment, wrote
 
 
@@ -199,6 +200,6 @@ def test_an_error_names_the_way_out(tmp_path: Path) -> None:
     mesh = tmp_path / "mesh.data"
     mesh.write_bytes(Path(CUBE).read_bytes())
     ended = curvcli("analyze", mesh)
-    way_out = "; --input-format obj|ply|stl reads a file of such a format under another name"
+    way_out = f"; --input-format {'|'.join(input_formats())} reads a file of such a format under another name"
     assert (ended.code, ended.complaint.endswith(way_out)) == (3, True)
     wrote(curvcli("analyze", mesh, "--input-format", "obj", "-q"))

@@ -13,6 +13,7 @@ from ....support.words import pluralize
 from ...corners import checked_corners
 from ...limits import check_faces
 from ...pieces import Pieces
+from ...strips import strip_triangles
 from .header import CORNERS, HEADER_END, TOO_SMALL, Header, PlyElement, parse_header
 from .rows import ElementColumns, read_binary_rows
 from .text import read_text_rows
@@ -88,7 +89,7 @@ def _mesh(content: dict[str, ElementColumns], elements: dict[str, PlyElement], n
         lengths, indices = content["tristrips"].lists[_corner_property(elements["tristrips"])]
         _refuse_shifted(lengths, elements, "tristrips", notices)
         checked_corners(indices, lengths, "tristrips", xyz.shape[1], lowest=-1)
-        strips = strip_triangles(indices, lengths)
+        strips, _ = strip_triangles(indices, lengths)
         corners, properties = np.concatenate((corners, strips.reshape(-1))), {}
         sizes = np.concatenate((sizes, np.full(len(strips), 3)))
     if not len(corners):
@@ -156,24 +157,3 @@ def _without_short(
 def _once(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
     """The common size as a view of one number if all sizes are equal."""
     return sizes[:1] if sizes.strides == (0,) else sizes
-
-
-def strip_triangles(indices: NDArray[Any], lengths: NDArray[np.int64]) -> NDArray[np.int32]:
-    """The triangles (n, 3) of strips: every three successive indices, every second triangle turned round.
-
-    A strip ends where its row ends and at each -1.
-    """
-    ends = np.cumsum(lengths)
-    row_start = np.zeros(len(indices) + 1, np.bool_)
-    row_start[ends - lengths] = True
-    cut = indices == -1
-    begins = row_start[:-1].copy()
-    begins[1:] |= cut[:-1]
-    begin = np.maximum.accumulate(np.where(begins, np.arange(len(indices)), 0))
-    third = np.arange(2, len(indices))
-    third = third[(begin[2:] <= third - 2) & ~cut[2:]]
-    odd = (third - begin[third]) % 2 == 1
-    a, b = third - 2, third - 1
-    return np.stack([indices[np.where(odd, b, a)], indices[np.where(odd, a, b)], indices[third]], axis=1).astype(
-        np.int32
-    )

@@ -1,0 +1,40 @@
+"""VTK XML unstructured grids."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..registry import InputFormat, ParserOptions, register
+
+if TYPE_CHECKING:
+    from ...mesh.file import MeshFile
+    from ..pieces import Pieces
+
+
+def has_sign(pieces: Pieces) -> bool:
+    """Test for a root element VTKFile with the type UnstructuredGrid."""
+    from ..vtk.sign import kind_of
+
+    return kind_of(pieces) == "UnstructuredGrid"
+
+
+def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:
+    from ..vtk.xml import parse_xml
+
+    return parse_xml(pieces, options, "vtu")
+
+
+register(
+    InputFormat(
+        name="vtu",
+        parse=_parse,
+        has_sign=has_sign,
+        encodings="XML with text, base64 or raw arrays, of either byte order, compressed or not",
+        rows="points",
+        digits="as the type says; doubles in text",
+        keeps="arrays of points and cells",
+        labels="arrays of cells",
+        polygons="triangulated; strips and pixels too",
+        curves="lines",
+    )
+)

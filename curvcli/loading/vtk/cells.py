@@ -1,0 +1,184 @@
+"""Cells of VTK data sets: polygons of a surface, polylines, and counts of the others."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InputError
+from ..corners import checked_corners
+from ..strips import strip_triangles
+from .kinds import CORNERS, FACES, LINES, PIXEL, STRIP, count_of, is_curved, name_of
+
+WholeNumbers = NDArray[np.integer[Any]]
+
+
+@dataclass(frozen=True)
+class CellLists:
+    """Cells by their corners: indices of all, concatenated, and the number of each."""
+
+    corners: WholeNumbers
+    sizes: WholeNumbers
+
+    @classmethod
+    def of_ends(cls, corners: WholeNumbers, ends: WholeNumbers, place: str) -> CellLists:
+        """Cells whose corners end before the given positions.
+
+        Errors: InputError for ends that descend, or that do not fit the number of corners.
+        """
+        sizes: Any = np.diff(ends.astype(np.int64, copy=False), prepend=0)
+        wrong = np.flatnonzero(sizes < 0)
+        if len(wrong):
+            problem = (
+                f"offset {int(ends[wrong[0]])} found, at least {int(ends[wrong[0] - 1]) if wrong[0] else 0} expected"
+            )
+            raise InputError(problem, place=f"{place}, offset {int(wrong[0])}")
+        if (last := int(ends[-1]) if len(ends) else 0) != len(corners):
+            raise InputError(f"{len(corners)} corners found, {last} announced by the offsets", place=place)
+        return cls(corners, sizes)
+
+    @property
+    def count(self) -> int:
+        """Number of cells."""
+        return len(self.sizes)
+
+    def of(self, chosen: NDArray[np.bool_]) -> CellLists:
+        """Some of the cells."""
+        return self if chosen.all() else CellLists(self.corners[np.repeat(chosen, self.sizes)], self.sizes[chosen])
+
+
+NONE = CellLists(np.empty(0, np.int32), np.empty(0, np.int64))
+
+
+@dataclass(frozen=True)
+class CellFaces:
+    """Polygons: corners, concatenated, the size of each, and the cell of each; None: every cell is a polygon.
+
+    lines: the polylines. cells: number of all cells. others: number of cells by name that are neither.
+    """
+
+    corners: NDArray[np.int32]
+    sizes: WholeNumbers
+    cell: WholeNumbers | None
+    cells: int
+    lines: CellLists = NONE
+    others: Counter[str] = field(default_factory=Counter)
+
+
+def of_lists(lists: Sequence[CellLists], vertices: int) -> CellFaces:
+    """Faces of polygonal data: vertices, lines, polygons and strips; values of cells are in this order."""
+    verts, lines, polygons, strips = lists
+    before = verts.count + lines.count
+    others = Counter({"vertex": verts.count} if verts.count else {})
+    lines = _checked(lines, "line", vertices)
+    cells = before + polygons.count + strips.count
+    corners = checked_corners(polygons.corners, polygons.sizes, "polygon", vertices)
+    if not strips.count:
+        cell = None if before == 0 else np.arange(before, cells)
+        return CellFaces(corners, polygons.sizes, cell, cells, lines, others)
+    checked = checked_corners(strips.corners, strips.sizes, "strip", vertices)
+    triangles, strip = strip_triangles(checked, strips.sizes.astype(np.int64, copy=False))
+    cell = np.concatenate((np.arange(before, before + polygons.count), before + polygons.count + strip))
+    sizes = np.concatenate((polygons.sizes, np.full(len(triangles), 3)))
+    return CellFaces(np.concatenate((corners, triangles.reshape(-1))), sizes, cell, cells, lines, others)
+
+
+def of_types(cells: CellLists, types: WholeNumbers, vertices: int) -> CellFaces:
+    """Faces of an unstructured grid, in the order of its cells.
+
+    Errors: InputError for curved faces, and for a number of corners that the type does not have.
+    """
+    present = {int(kind): int(count) for kind, count in zip(*np.unique(types, return_counts=True), strict=True)}
+    if curved := {name_of(kind): count for kind, count in present.items() if is_curved(kind)}:
+        raise InputError(f"{count_of(sum(curved.values()), 'curved face')} found", hint=STRAIGHT)
+    for kind in present.keys() & CORNERS.keys():
+        wrong = np.flatnonzero((types == kind) & (cells.sizes != CORNERS[kind]))
+        if len(wrong):
+            problem = f"cell of type {kind} with {int(cells.sizes[wrong[0]])} corners, {CORNERS[kind]} expected"
+            raise InputError(problem, place=f"cell {int(wrong[0])}")
+    others: Counter[str] = Counter()
+    for kind, count in present.items():
+        if kind not in (*FACES, *LINES):
+            others[name_of(kind)] += count
+    lines = _checked(cells.of(np.isin(types, LINES)), "line", vertices) if present.keys() & {*LINES} else NONE
+    is_face = np.isin(types, FACES)
+    faces = cells.of(is_face)
+    corners = checked_corners(faces.corners, faces.sizes, "face", vertices)
+    cell = None if is_face.all() else np.flatnonzero(is_face)
+    if PIXEL in present:
+        corners = _turned_pixels(corners, faces.sizes, types[is_face] == PIXEL)
+    if STRIP not in present:
+        return CellFaces(corners, faces.sizes, cell, cells.count, lines, others)
+    return _with_strips(
+        CellLists(corners, faces.sizes), types[is_face] == STRIP, np.flatnonzero(is_face), cells, lines, others
+    )
+
+
+STRAIGHT = (
+    "a surface of flat triangles or polygons is expected: "
+    """`python -c "import pyvista; pyvista.read('IN').extract_surface().save('OUT.ply')"` makes one"""
+)
+
+
+def _checked(cells: CellLists, name: str, vertices: int) -> CellLists:
+    return CellLists(checked_corners(cells.corners, cells.sizes, name, vertices), cells.sizes)
+
+
+def _turned_pixels(corners: NDArray[np.int32], sizes: WholeNumbers, pixel: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """Corners in which pixels, whose corners lie in rows, are quadrilaterals."""
+    turned = corners.copy()
+    third = (np.cumsum(sizes) - sizes)[pixel] + 2
+    turned[third], turned[third + 1] = corners[third + 1], corners[third]
+    return turned
+
+
+def _with_strips(
+    faces: CellLists,
+    strip: NDArray[np.bool_],
+    cell: NDArray[np.int64],
+    cells: CellLists,
+    lines: CellLists,
+    others: Counter[str],
+) -> CellFaces:
+    """Faces of which some are strips, whose triangles take their place."""
+    polygons, strips = faces.of(~strip), faces.of(strip)
+    triangles, row = strip_triangles(strips.corners, strips.sizes.astype(np.int64, copy=False))
+    every = CellLists(
+        np.concatenate((polygons.corners, triangles.reshape(-1))),
+        np.concatenate((polygons.sizes, np.full(len(triangles), 3))),
+    )
+    origin = np.concatenate((cell[~strip], cell[strip][row]))
+    order = np.argsort(origin, kind="stable")
+    begin = (np.cumsum(every.sizes) - every.sizes)[order]
+    sizes = every.sizes[order]
+    at = np.arange(int(sizes.sum())) + np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
+    return CellFaces(every.corners[at].astype(np.int32), sizes, origin[order], cells.count, lines, others)
+
+
+def joined(parts: Sequence[CellFaces], vertices: Sequence[int]) -> CellFaces:
+    """Faces of consecutive pieces, given the number of vertices of each."""
+    if len(parts) == 1:
+        return parts[0]
+    first = np.cumsum([0, *vertices])
+    cells = np.cumsum([0, *(part.cells for part in parts)])
+    return CellFaces(
+        np.concatenate([part.corners + np.int32(at) for part, at in zip(parts, first[:-1], strict=True)]),
+        np.concatenate([part.sizes for part in parts]),
+        np.concatenate(
+            [
+                (np.arange(part.cells) if part.cell is None else part.cell) + at
+                for part, at in zip(parts, cells[:-1], strict=True)
+            ]
+        ),
+        int(cells[-1]),
+        CellLists(
+            np.concatenate([part.lines.corners + np.int32(at) for part, at in zip(parts, first[:-1], strict=True)]),
+            np.concatenate([part.lines.sizes for part in parts]),
+        ),
+        sum((part.others for part in parts), Counter()),
+    )
