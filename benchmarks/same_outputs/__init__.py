@@ -1,0 +1,1 @@
+"""Comparison of all outputs of two commits, byte for byte."""
