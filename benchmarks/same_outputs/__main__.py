@@ -108,7 +108,7 @@ def report(found: list[Difference], cases: int) -> None:
     click.echo("in no known way\n")
     for name, count in counts.most_common():
         click.echo(f"{count:6}  {name}")
-    alike: dict[str, list[Difference]] = defaultdict(list)
+    alike: dict[tuple[str, str], list[Difference]] = defaultdict(list)
     for each in found:
         if not each.kinds:
             alike[each.signature].append(each)

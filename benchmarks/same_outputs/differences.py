@@ -11,6 +11,7 @@ import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
+from os.path import commonprefix
 from pathlib import Path
 
 # Seconds are the one thing that equal runs do not share: in JSON, JUnit, pages and summaries.
@@ -55,11 +56,14 @@ class Difference:
     kinds: tuple[str, ...] = ()
 
     @property
-    def signature(self) -> str:
-        """Text that differences of one kind share: no numbers, no paths, no names of meshes."""
-        command = self.case.rpartition("/")[2]
-        lines = (re.sub(r"/\S+|'[^']*'|[-+]?\d[\d.e+-]*", "#", line)[:200] for line in (self.old, self.new))
-        return "\n".join((f"{command if command else self.case} {self.file}", *lines))
+    def signature(self) -> tuple[str, str]:
+        """The words that differ, without numbers, paths and names: differences of one kind share them."""
+        lines = [re.sub(r"/\S+|'[^']*'|[-+]?\d[\d.e+-]*", "#", line).split() for line in (self.old, self.new)]
+        for _ in range(2):  # without the words that both share at the end, then at the beginning
+            lines = [line[::-1] for line in lines]
+            shared = len(commonprefix(lines))
+            lines = [line[shared:] for line in lines]
+        return " ".join(lines[0])[:200], " ".join(lines[1])[:200]
 
 
 def known_kinds(path: str | Path) -> list[Kind]:
