@@ -11,7 +11,6 @@ import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
-from os.path import commonprefix
 from pathlib import Path
 
 # Seconds are the one thing that equal runs do not share: in JSON, JUnit, pages and summaries.
@@ -61,7 +60,7 @@ class Difference:
         lines = [re.sub(r"/\S+|'[^']*'|[-+]?\d[\d.e+-]*", "#", line).split() for line in (self.old, self.new)]
         for _ in range(2):  # without the words that both share at the end, then at the beginning
             lines = [line[::-1] for line in lines]
-            shared = len(commonprefix(lines))
+            shared = next((i for i, (a, b) in enumerate(zip(*lines, strict=False)) if a != b), min(map(len, lines)))
             lines = [line[shared:] for line in lines]
         return " ".join(lines[0])[:200], " ".join(lines[1])[:200]
 
