@@ -68,7 +68,7 @@ class Result:
         self.configuration: Configuration | None = None
         self._derived = derived_for(self.chosen, self.settings.values)
         self._rules = self._applicable_rules() if checks is None else [identities()[name] for name in checks]
-        wanted = {
+        wanted = [
             *self.chosen,
             *_ALWAYS,
             *self._totalled,
@@ -76,10 +76,11 @@ class Result:
             *self._flags,
             *beside(self.chosen),
             *(need for rule in self._rules for need in rule.needs),
-        }
-        besides = {*request.besides} - wanted
-        prepare(passes, surface, wanted | besides, request.area)
-        computed = evaluate(passes, surface, wanted | besides, area=request.area, settings=self.settings)
+        ]
+        besides = {*request.besides}.difference(wanted)
+        names = [*wanted, *besides]
+        prepare(passes, surface, names, request.area)
+        computed = evaluate(passes, surface, names, area=request.area, settings=self.settings)
         self.columns = {name: computed[name] for name in wanted}
         self.besides = {name: computed[name] for name in besides}
         self._shown: dict[str, Array] = {}

@@ -58,3 +58,12 @@ def test_threads_do_not_matter(
     for name in one:
         assert one[name] == two[name], f"{name} depends on the number of threads"
         assert again[name] == two[name], f"{name} differs from run to run"
+
+
+def test_the_order_of_sets_does_not_matter(small: Path, tmp_path: Path) -> None:
+    line = command("analyze", small, "--rings", "1,3", "--get", "totals")
+    reports = {
+        subprocess.run(line, capture_output=True, env=environment(PYTHONHASHSEED=seed), check=True).stdout
+        for seed in ("0", "1", "2")
+    }
+    assert len(reports) == 1
