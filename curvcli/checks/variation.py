@@ -9,7 +9,8 @@ from ..mesh.enclosed import volumes
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
-from ..support.arrays import Column, VectorColumn
+from ..support.arrays import Column, VectorColumn, or_none
+from ..support.words import format_rounded
 from .balance import dot_offset, moments, vector_sum
 from .base import IdentityValues, check, exclude_null, rounding
 
@@ -34,7 +35,7 @@ def area_gradient(
     shown = [surface.in_file_unit(side, 1) for side in (drift, drift_tolerance)]
 
     def detail(g: int) -> str:
-        drift, allowed = (f"{side[g]:.3g}" if np.isfinite(side[g]) else "undefined" for side in shown)
+        drift, allowed = (format_rounded(or_none(side[g]), 3) for side in shown)
         return f"Σ p·∇_p area against 2 area; |Σ ∇_p area| = {drift} (allowed {allowed})"
 
     # Both must hold: the residual includes the drift, scaled by the ratio of the bounds.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, UsageError
-from ..support.words import counted
+from ..support.words import counted, format_rounded
 from .sides import LoadedSide, analysed_side
 
 if TYPE_CHECKING:
@@ -63,7 +63,9 @@ def accuracy(
         given = np.array([cells[axis] for axis in _POSITION], np.float64)
         moved = float(np.nanmax(np.abs(given - surface.xyz_given)))
         if moved > 1e-6 * np.ptp(given[:, surface.referenced], axis=1).max():
-            notes.append(f"the mesh's vertices are up to {moved:.3g} from where the exact values are known")
+            notes.append(
+                f"the mesh's vertices are up to {format_rounded(moved, 3)} from where the exact values are known"
+            )
     area = surface.in_file_unit(analysis.columns["star_area"], 2)
     errors = []
     for name, partner in pairs.items():

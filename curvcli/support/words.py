@@ -129,9 +129,31 @@ def suggestion(name: str, known: Iterable[str], listing: str = "") -> str:
     return f"; {listing}" if listing else ""
 
 
+# Rounded numbers from here on have an exponent; 4670 is shorter than 4.67e+03 and has as many digits.
+_WITH_EXPONENT = 1e6
+
+
 def format_rounded(value: float | None, digits: int = 6, undefined: str = "undefined") -> str:
     """A number for people, rounded to significant digits; zero has no minus sign."""
-    return undefined if value is None or value != value else f"{value + 0.0:.{digits}g}"
+    if value is None or value != value:
+        return undefined
+    text = f"{value + 0.0:.{digits}g}"
+    return f"{float(text):.0f}" if "e+0" in text and abs(value) < _WITH_EXPONENT else text
+
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def format_exponent(power: int) -> str:
+    """An integer as an exponent."""
+    return str(power).translate(_RAISED)
+
+
+def typeset_number(value: float, digits: int = 4) -> str:
+    """A number for pictures, with a minus sign and a power of ten where it is large or small: `−1.2·10⁻⁷`."""
+    mantissa, e, power = f"{value:.{digits}g}".partition("e")
+    text = f"{mantissa}·10{format_exponent(int(power))}" if e else mantissa
+    return text.replace("-", "−")
 
 
 def format_number(value: float) -> str:

@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING
 
 from ...curvatures.quantity import Quantity
 from ...curvatures.registry import passes
-from ...support.words import counted
+from ...support.words import counted, format_exponent, typeset_number
 from .colors import ColorScale, parse_range
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
 
-_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _BOLD = str.maketrans("", "", "*")
 
 
@@ -36,7 +35,7 @@ class Colored:
         exponent = self.quantity.length_exponent
         if exponent == 0:
             return ""
-        return (length or "length") + ("" if exponent == 1 else raised(exponent))
+        return (length or "length") + ("" if exponent == 1 else format_exponent(exponent))
 
     @property
     def symbol(self) -> str:
@@ -45,20 +44,6 @@ class Colored:
         if self.quantity.vector:
             symbol = f"{self.name[-1]} of {symbol}"
         return "" if symbol == self.name else symbol
-
-
-def raised(number: int) -> str:
-    """Integer as an exponent."""
-    return str(number).translate(_RAISED)
-
-
-def number(value: float, digits: int = 4) -> str:
-    """Number for people, with a minus sign and a power of ten where it is large or small."""
-    text = f"{value:.{digits}g}"
-    mantissa, e, power = text.partition("e")
-    if e:
-        text = f"{mantissa}·10{raised(int(power))}"
-    return text.replace("-", "−")
 
 
 def range_words(value_range: str | None, signed: bool) -> str:
@@ -81,9 +66,9 @@ def range_text(scale: ColorScale, value_range: str | None, unit: str = "") -> st
     cut = [f"{count:,} {where}" for count, where in clipped if count]
     if scale.low == scale.high and not cut:
         of = " within rounding" if scale.rounded is not None else ""
-        return f"{number(scale.low)}{behind}{of} wherever defined"
-    digits = next((d for d in range(4, 17) if number(scale.low, d) != number(scale.high, d)), 17)
-    ends = f"{number(scale.low, digits)} to {number(scale.high, digits)}{behind}"
+        return f"{typeset_number(scale.low)}{behind}{of} wherever defined"
+    digits = next((d for d in range(4, 17) if typeset_number(scale.low, d) != typeset_number(scale.high, d)), 17)
+    ends = f"{typeset_number(scale.low, digits)} to {typeset_number(scale.high, digits)}{behind}"
     # Percentiles cut off values, unless the values differ by rounding only: then the range has all of them.
     rule = range_words(value_range, scale.signed) if cut or value_range is not None else "all values"
     settled = "" if scale.rounded is None else f", {int(scale.rounded.sum()):,} are 0 within rounding"
@@ -139,9 +124,9 @@ def ticks(low: float, high: float, room: int, whole: bool = False) -> tuple[list
 
     size = max(abs(low), abs(high))
     if low == high:
-        return [low], [number(low, 6)], 0
+        return [low], [typeset_number(low, 6)], 0
     if high / 2 - low / 2 < 1e-4 * size and not whole:
-        return [low, high], [number(low, 6), f"+{number(high - low, 2)}"], 0
+        return [low, high], [typeset_number(low, 6), f"+{typeset_number(high - low, 2)}"], 0
     power = 0 if whole or 1e-2 <= size < 1e4 else max(-300, 3 * math.floor(math.log10(size) / 3))
     first, last = low / 10.0**power, high / 10.0**power
     locator = MaxNLocator(room, steps=[1, 2, 2.5, 5, 10], integer=whole)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .legend import Colored, raised, range_text, ticks
+from ...support.words import format_exponent
+from .legend import Colored, range_text, ticks
 from .render import Color
 from .sheet import Box, LegendEntry, Sheet
 
@@ -15,7 +16,7 @@ def draw_title(
     """Draw name, symbol and unit of a column, as large as fits; the unit has the power of ten of the ticks."""
     scale = column.scale
     power = ticks(scale.low, scale.high, 5)[2] if scale.low is not None and scale.high is not None else 0
-    unit = " ".join(part for part in (f"10{raised(power)}" if power else "", column.unit(length)) if part)
+    unit = " ".join(part for part in (f"10{format_exponent(power)}" if power else "", column.unit(length)) if part)
     rest = "  ".join(part for part in (column.symbol, f"[{unit}]" if unit else "") if part)
     width, gap = sheet.measure(column.name, font, bold=True), 0.8 * font
     size = font * min(1.0, room / (width + gap + sheet.measure(rest, font)))

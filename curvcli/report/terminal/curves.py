@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from rich.table import Table
 
 from ...checks.base import Check
-from ...support.words import counted
+from ...support.words import counted, format_rounded
 from ..curves import CurveReport, CurveRow
 from .console import MARKS, escape, report_console, show_configuration
 from .fitting import add_numbers, fitting, plain_table, roomy_table, with_sentences
@@ -65,7 +65,9 @@ def _curves(rows: list[CurveRow]) -> Iterator[Table]:
                 "writhe": row.writhe,
                 "holonomy": row.holonomy,
             }
-            cells |= {"vertices": f"{row.vertices:,}"} | {key: _number(value, digits) for key, value in values.items()}
+            cells |= {"vertices": f"{row.vertices:,}"} | {
+                key: format_rounded(value, digits, "") for key, value in values.items()
+            }
             knot = ("unknotted" if row.unknotted else "",) if knots else ()
             table.add_row(*(cells[name] for name in (*names, *chosen)), *knot)
         yield table
@@ -76,7 +78,13 @@ def _checks(checks: list[Check], verbose: int) -> Iterator[Table]:
     listed = checks if verbose else [row for name in dict.fromkeys(c.name for c in checks) for row in _of(checks, name)]
     rows = [
         (
-            (row.name, row.scope, MARKS[row.status], _number(row.residual, 2), _number(row.tolerance, 2)),
+            (
+                row.name,
+                row.scope,
+                MARKS[row.status],
+                format_rounded(row.residual, 2, ""),
+                format_rounded(row.tolerance, 2, ""),
+            ),
             escape(row.detail),
             row.status != "pass",
         )
@@ -95,7 +103,3 @@ def _of(checks: list[Check], name: str) -> list[Check]:
 
 def _strain(row: Check) -> float:
     return row.residual / row.tolerance if row.residual and row.tolerance else 0.0
-
-
-def _number(value: float | None, digits: int = 6) -> str:
-    return "" if value is None else f"{value:.{digits}g}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
+from ...support.words import format_rounded
 from ..maps import Harmonic, MapReport, Range, model
 from .console import MARKS, escape, report_console, show_configuration
 from .fitting import fitting, with_sentences
@@ -27,7 +28,7 @@ def show(f: SurfaceMap) -> None:
     console.print(fitting(console, _quantities(report)))
     rows = [
         (
-            (row.name, MARKS[row.status], _text(row.residual, 2), _text(row.tolerance, 2)),
+            (row.name, MARKS[row.status], format_rounded(row.residual, 2), format_rounded(row.tolerance, 2)),
             escape(row.detail),
             row.status != "pass",
         )
@@ -37,17 +38,22 @@ def show(f: SurfaceMap) -> None:
 
 
 def _quantities(report: MapReport) -> Iterator[Table]:
-    totals, harmonic = report.totals, report.harmonic
+    harmonic = report.harmonic
+    shown = {key: format_rounded(total, 12) for key, total in report.totals.items()}
     rows = (
-        ("dirichlet", _text(totals["dirichlet"]), "E(f) = ½ Σ |∇f|² area"),
-        ("area", _text(totals["area"]), "area of the source"),
-        ("image_area", _text(totals["image_area"]), "area of the image"),
-        ("nonconformality", _text(totals["nonconformality"]), "E(f) − area f(M) = Σ ½ (σ₁ − σ₂)² area; 0 if conformal"),
+        ("dirichlet", shown["dirichlet"], "E(f) = ½ Σ |∇f|² area"),
+        ("area", shown["area"], "area of the source"),
+        ("image_area", shown["image_area"], "area of the image"),
+        (
+            "nonconformality",
+            shown["nonconformality"],
+            "E(f) − area f(M) = Σ ½ (σ₁ − σ₂)² area; 0 if conformal",
+        ),
         ("sigma_1", _between(report.sigma_1), "larger singular value per face"),
         ("sigma_2", _between(report.sigma_2), "smaller singular value per face, without sign"),
         ("area_distortion", _between(report.area_distortion), "area of the image per area, σ₁ σ₂"),
         ("orientation", f"{report.orientation.turned_over:,}", "faces that are turned over"),
-        ("harmonic", _text(harmonic.residual_max), _where(harmonic)),
+        ("harmonic", format_rounded(harmonic.residual_max, 12), _where(harmonic)),
     )
     return with_sentences(
         ("quantity", "value"), (), "what it is", [((name, value), meaning, True) for name, value, meaning in rows]
@@ -57,12 +63,9 @@ def _quantities(report: MapReport) -> Iterator[Table]:
 def _where(harmonic: Harmonic) -> str:
     if harmonic.vertex is None:
         return "max |∇_p E(f)|: no vertex off the boundary"
-    return f"max |∇_p E(f)|, at vertex {harmonic.vertex}; rounding explains {_text(harmonic.rounding, 2)}"
+    return f"max |∇_p E(f)|, at vertex {harmonic.vertex}; rounding explains {format_rounded(harmonic.rounding, 2)}"
 
 
 def _between(values: Range) -> str:
-    return f"{_text(values.min)} … {_text(values.max)}" + (f", {values.nulls:,} undefined" if values.nulls else "")
-
-
-def _text(value: float | None, digits: int = 12) -> str:
-    return "undefined" if value is None else f"{value:.{digits}g}"
+    ends = f"{format_rounded(values.min, 12)} … {format_rounded(values.max, 12)}"
+    return f"{ends}, {values.nulls:,} undefined" if values.nulls else ends

@@ -8,6 +8,7 @@ from rich import box
 from rich.table import Table
 
 from ...samples import specs
+from ...support.words import format_rounded
 from .console import escape, report_console
 
 if TYPE_CHECKING:
@@ -45,4 +46,4 @@ def describe(spec: SampleSpec, made: Sample) -> None:
 
 
 def _shown(value: Any) -> str:
-    return f"{value:.15g}" if isinstance(value, float) else str(value)
+    return format_rounded(value, 15) if isinstance(value, float) else str(value)

@@ -9,6 +9,7 @@ from rich.table import Table
 
 from ...checks.base import Check
 from ...mesh.scale import describe_scales
+from ...support.words import format_rounded
 from ..build import model
 from ..conclusion import conclusion, holds
 from ..model import Report
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 # Minimum widths of a column of sentences, and of one of names that are folded.
 _DETAIL, _NAME = 20, 14
-# Smaller whole numbers are written without an exponent.
-_PLAIN = 1e6
 
 
 def show(analysis: Result, verbose: int = 0) -> None:
@@ -74,7 +73,7 @@ def _checks(rows: list[Check], verbose: int) -> Iterator[Table]:
             table.add_column("detail", overflow="fold", min_width=_DETAIL)
         for row in listed:
             tested = row.status != "not_applicable"
-            numbers = (_number(row.residual), _number(row.tolerance)) if tested else ("", "")
+            numbers = (format_rounded(row.residual, 2), format_rounded(row.tolerance, 2)) if tested else ("", "")
             name = row.name if wide or row.status == "pass" else f"{row.name}\n  {escape(row.detail)}"
             scope = (escape(row.scope),) if scoped else ()
             table.add_row(name, *scope, MARKS[row.status], *numbers, *((escape(row.detail),) if wide else ()))
@@ -100,7 +99,9 @@ def _regions(report: Report, digits: int) -> Table:
     add_numbers(table, "faces", "χ", "area", "ΣK", "Σκ_g", "willmore")
     for region in report.regions[:20]:
         topology = region.topology
-        totals = (_number(_scalar(region.totals.get(key)), digits) for key in ("area", "K", "kappa_g", "willmore"))
+        totals = (
+            format_rounded(_scalar(region.totals.get(key)), digits) for key in ("area", "K", "kappa_g", "willmore")
+        )
         table.add_row(escape(region.name), f"{topology.faces:,}", str(topology.euler_characteristic), *totals)
     if len(report.regions) > 20:
         table.add_row(f"[dim]… {len(report.regions) - 20:,} more: --table regions=PATH[/dim]")
@@ -124,7 +125,7 @@ def _columns(report: Report) -> Iterator[Table]:
         table = plain_table("column", *(("unit",) if unit else ()))
         add_numbers(table, *statistics, "null")
         for name, column in report.columns.items():
-            numbers = (_number(getattr(column, key), digits, "") for key in statistics)
+            numbers = (format_rounded(getattr(column, key), digits, "") for key in statistics)
             nulls = f"{column.nulls:,}" if column.nulls else ""
             table.add_row(escape(name), *((escape(column.unit),) if unit else ()), *numbers, nulls)
         yield table
@@ -139,7 +140,7 @@ def _conventions(report: Report) -> str:
     if chosen["normals"] is not None:
         rest += f", normals of the {chosen['normals']}"
     if chosen["noise"] is not None:
-        rest += f"; noise {float(chosen['noise']):.2g}"
+        rest += f"; noise {format_rounded(float(chosen['noise']), 2)}"
     if chosen["settings"] is not None:
         rest += f"; {chosen['settings']}"
     if chosen["bending_rigidity"] is not None:
@@ -149,13 +150,5 @@ def _conventions(report: Report) -> str:
 
 def _value(value: Any) -> str:
     if isinstance(value, Iterable):
-        return "(" + ", ".join(_number(x, 12) for x in value) + ")"
-    return _number(value, 15)
-
-
-def _number(value: float | None, digits: int = 2, undefined: str = "undefined") -> str:
-    if value is None:
-        return undefined
-    text = f"{value + 0.0:.{digits}g}"  # zero has no sign
-    # 4670 is shorter than 4.67e+03 and has as many digits.
-    return f"{float(text):.0f}" if "e+0" in text and abs(value) < _PLAIN else text
+        return "(" + ", ".join(format_rounded(x, 12) for x in value) + ")"
+    return format_rounded(value, 15)

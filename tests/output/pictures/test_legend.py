@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from curvcli.output.pictures.colors import categorize, colorize
 from curvcli.output.pictures.histogram import distribution
-from curvcli.output.pictures.legend import number, range_text, ticks
+from curvcli.output.pictures.legend import range_text, ticks
+from curvcli.support.words import typeset_number
 
 FINITE = st.floats(-1e300, 1e300, allow_subnormal=False)
 
@@ -20,7 +21,7 @@ FINITE = st.floats(-1e300, 1e300, allow_subnormal=False)
     ("value", "text"), [(0.5, "0.5"), (-0.25, "−0.25"), (123456.0, "1.235·10⁵"), (-1e-9, "−1·10⁻⁹"), (0.0, "0")]
 )
 def test_numbers_in_legends_are_short(value: float, text: str) -> None:
-    assert number(value) == text
+    assert typeset_number(value) == text
 
 
 @pytest.mark.parametrize(
