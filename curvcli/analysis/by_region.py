@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..curvatures.quantity import AT_SCALE
+from ..curvatures.registry import passes
 from ..curvatures.settings import OTHERS, SettingValue, find_setting, regions_of
 from ..errors import LackingError
 from ..loading.labels import Regions
@@ -36,6 +38,13 @@ def with_regions(
             each = np.array([*(value.get(region, others) for region in regions.names), others])
             of_faces[name] = each[regions.face]
     return replace(settings, values={**settings.values, **of_faces})
+
+
+def splits_itself(name: str, settings: EstimatorSettings) -> bool:
+    """True for a measure whose pass splits it over the faces, where one of its settings differs between them."""
+    owner = passes.provider(name.partition(AT_SCALE)[0])
+    values = (settings.values.get(f"{owner.name}.{each.name}", 0.0) for each in owner.settings)
+    return owner.of_faces is not None and any(np.ndim(value) for value in values)
 
 
 def on_faces(settings: EstimatorSettings, mask: Mask) -> EstimatorSettings:

@@ -108,6 +108,11 @@ class Request:
         """Bending rigidity; None leaves energies in units of κ."""
         return None if self.bending_rigidity is None else parse_rigidity(self.bending_rigidity)
 
+    @property
+    def energy(self) -> float:
+        """Factor of energies, the bending rigidity in its unit."""
+        return 1.0 if self.rigidity is None else self.rigidity.size
+
     @cached_property
     def settings(self) -> EstimatorSettings:
         """Scales, normals and noise of estimates, and parameters of passes, without values by region."""

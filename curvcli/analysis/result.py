@@ -17,7 +17,7 @@ from ..checks.partition import Share
 from ..checks.summary import summarise_checks
 from ..curvatures.catalogue import at_scales
 from ..curvatures.derived import derived_for
-from ..curvatures.engine import evaluate, in_file_unit, prepare, schedule
+from ..curvatures.engine import evaluate, in_file_unit, needs, parts_of_faces, prepare, schedule
 from ..curvatures.quantity import AT_SCALE, CELL_AREA, Element
 from ..curvatures.registry import passes
 from ..errors import Notice
@@ -28,7 +28,7 @@ from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Surface
 from ..support.arrays import Array, Floats, or_none
 from . import notices as findings
-from .by_region import on_faces, with_regions
+from .by_region import on_faces, splits_itself, with_regions
 from .columns import Columns, named
 from .request import Request
 from .resolution import beside, of_stars, unscaled
@@ -72,7 +72,6 @@ class Result:
             *self.chosen,
             *_ALWAYS,
             *self._totalled,
-            *columns_for(self._derived),
             *self._flags,
             *beside(self.chosen),
             *(need for rule in self._rules for need in rule.needs),
@@ -103,7 +102,7 @@ class Result:
         """Quantities with totals; of several scales, those whose column is chosen."""
         scaled = [name for name in self.chosen if AT_SCALE in name]
         unscaled = [name for name in self._closure if not (scaled and passes.depends_on_scale(name))]
-        return [quantity.name for quantity in summed([*unscaled, *scaled])]
+        return [quantity.name for quantity in summed({*unscaled, *scaled, *columns_for(self._derived)})]
 
     @cached_property
     def _flags(self) -> list[str]:
@@ -119,8 +118,8 @@ class Result:
 
     def column(self, name: str) -> Array:
         """One column as in the outputs: (n,), (n, 3), or strings for labels."""
-        rigidity = 1.0 if self.request.rigidity is None else self.request.rigidity.size
-        return in_file_unit(passes.quantity(name), self.computed(name), self.surface, self.request.mean, rigidity)
+        mean, energy = self.request.mean, self.request.energy
+        return in_file_unit(passes.quantity(name), self.computed(name), self.surface, mean, energy)
 
     def shown(self, name: str) -> Array:
         """The same column, cached, and computed where the request did not name it."""
@@ -177,8 +176,8 @@ class Result:
 
     def totals_of(self, groups: Groups) -> dict[str, NDArray[np.float64]]:
         """Totals of each group, (G,) or (G, 3); NaN where undefined."""
-        rigidity = 1.0 if self.request.rigidity is None else self.request.rigidity.size
-        return totals(self.surface, groups, self.columns, self.request.mean, rigidity, self._derived, self.settings)
+        mean, energy = self.request.mean, self.request.energy
+        return totals(self.surface, groups, self.columns, mean, energy, self._derived, self.settings)
 
     @cached_property
     def totals(self) -> dict[str, float | list[float] | None]:
@@ -203,7 +202,14 @@ class Result:
         if self.regions is None:
             return []
         parts = Partition(self.surface, self.regions.face, self.regions.count, self.columns["face_area"])
-        return parts.shares({name: self.columns[name] for name in self._totalled})
+        split = {name: self._split(name) for name in self._totalled if splits_itself(name, self.settings)}
+        return parts.shares({name: self.columns[name] for name in self._totalled}, split)
+
+    def _split(self, name: str) -> tuple[Floats, Floats]:
+        """Parts of the faces in a measure that its pass splits, and the sizes of their terms."""
+        self.include(needs(passes.provider(name), self.request.area))
+        known = {**self.columns, **self.besides}
+        return parts_of_faces(passes.provider(name), self.surface, known, self.request.area, self.settings)
 
     def _checked(self, groups: Groups) -> list[Check]:
         """Checks of every group; of very many groups, those that fail."""
@@ -218,7 +224,8 @@ class Result:
         shares: dict[str, Floats] = {}
         for share in self.shares:
             values = self.surface.in_file_unit(share.values[:-1], share.length_exponent)
-            shares[share.key] = values * 0.5**share.mean_degree if self.request.mean == "average" else values
+            values = values * 0.5**share.mean_degree if self.request.mean == "average" else values
+            shares[share.key] = values * self.request.energy if share.energy else values
         return shares
 
     @property

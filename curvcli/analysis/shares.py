@@ -56,11 +56,19 @@ class Partition:
         self.surface, self.count, self._area = surface, count, area
         self._face = np.where(face < 0, np.int32(count), face).astype(np.int32)
 
-    def shares(self, columns: Mapping[str, Any]) -> list[Share]:
-        """Shares of every total that the given columns provide, in the order of the report."""
-        return [self._share(quantity, columns[quantity.name]) for quantity in summed(columns)]
+    def shares(
+        self, columns: Mapping[str, Any], of_faces: Mapping[str, tuple[Floats, Floats]] | None = None
+    ) -> list[Share]:
+        """Shares of every total that the given columns provide, in the order of the report.
 
-    def _share(self, quantity: Quantity, column: Any) -> Share:
+        of_faces: (F,) parts of the faces, and sizes of their terms, for measures that a pass splits itself.
+        """
+        own = of_faces or {}
+        return [self._share(quantity, columns[quantity.name], own.get(quantity.name)) for quantity in summed(columns)]
+
+    def _share(self, quantity: Quantity, column: Any, own: tuple[Floats, Floats] | None) -> Share:
+        if own is not None:
+            return self._split_by_pass(quantity, column, *own)
         scalars = list(column) if quantity.vector else [np.asarray(column, np.float64)]
         each = [self._sum(quantity.on, values) for values in scalars]
         values, total, bound = (np.stack(part, axis=-1) for part in zip(*each, strict=True))
@@ -70,7 +78,17 @@ class Partition:
         scaled = passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0])
         if (quantity.parity == "odd" and not self.surface.orientable) or (scaled and np.isnan(scalars[0]).all()):
             values, total = np.full_like(values, np.nan), np.full_like(total, np.nan)
-        return Share(str(quantity.total), quantity.length_exponent, quantity.mean_degree, values, total, bound)
+        exponents = quantity.length_exponent, quantity.mean_degree
+        return Share(str(quantity.total), *exponents, values, total, bound, quantity.energy)
+
+    def _split_by_pass(self, quantity: Quantity, column: Floats, parts: Floats, sizes: Floats) -> Share:
+        """Shares of a measure of vertices from the parts of the faces; a mean over the n faces of a star is known to
+        (n + 3)ε of its terms, and so is the square of its difference from another number, twice."""
+        values, total = self._faces.sum(parts), Segments(None, 1, len(column)).sum(column)[0]
+        stars = 2 * (int(self.surface.degree.max()) + 3) * EPSILON * float(sizes.sum())
+        bound = float(rounding(self.surface, Segments(None, 1, len(sizes)).sum(sizes))[0]) + stars
+        exponents = quantity.length_exponent, quantity.mean_degree
+        return Share(str(quantity.total), *exponents, values, np.asarray(total), np.asarray(bound), quantity.energy)
 
     def _sum(self, on: str, values: Floats) -> tuple[Floats, float, float]:
         """Shares, total and bound of one scalar measure."""

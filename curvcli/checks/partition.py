@@ -19,6 +19,7 @@ class Share:
 
     key: of the total. values: (R + 1,) or (R + 1, 3), of the R regions and of the faces without one; NaN where the
     total of the whole is undefined. total: of the whole, () or (3,). bound: of the rounding error of Σ values − total.
+    energy: a multiple of the bending rigidity.
     """
 
     key: str
@@ -27,6 +28,7 @@ class Share:
     values: Floats
     total: Floats
     bound: Floats
+    energy: bool = False
 
 
 @check(

@@ -69,6 +69,14 @@ def values_of(step: Configurable, surface: Surface, settings: EstimatorSettings 
     return values
 
 
+def parts_of_faces(
+    step: Step, surface: Surface, have: Mapping[str, Array], area: str, settings: EstimatorSettings
+) -> tuple[Array, Array]:
+    """(F,) parts of the faces in a measure that its pass splits, and the sizes of their terms."""
+    assert step.of_faces is not None
+    return step.of_faces(*arguments(step, surface, have, area, settings), **values_of(step, surface, settings))
+
+
 def schedule(passes: Provider, names: Iterable[str], area: str, have: Set[str] = frozenset()) -> list[Step]:
     """Order the passes for the named quantities so that each comes after its needs."""
     graph: dict[str, set[str]] = {}

@@ -11,6 +11,20 @@ from .registry import curvature_pass
 from .setting import Setting
 
 
+def _of_faces(
+    surface: Surface, h: Column, h_signed: Column, star_area: Column, face_area: Column, c0: float | Column = 0.0
+) -> tuple[Column, Column]:
+    """Parts of the faces in `helfrich`, each with its own c₀, and the sizes ½ Σ (|H| + |c₀|)² of their terms."""
+    third, own = np.repeat(face_area, 3) / 3, np.repeat(np.broadcast_to(np.asarray(c0), face_area.shape), 3)
+    corner = surface.faces.ravel()
+    bent = np.bincount(corner, third * np.abs(own), surface.n_vertices)[corner] > 0
+    with np.errstate(over="ignore", invalid="ignore"):
+        parts = 0.5 * third * np.where(bent, h_signed[corner] - own, h[corner]) ** 2
+        sizes = 0.5 * third * (h[corner] + np.abs(own)) ** 2
+    sizes[np.isnan(parts)] = 0.0
+    return np.nansum(parts.reshape(-1, 3), axis=1), sizes.reshape(-1, 3).sum(axis=1)
+
+
 @curvature_pass(
     symbol="½(H − c₀)²A_p",
     formula="½ (H − c₀)² A_p in units of κ, H = h_signed = κ₁ + κ₂",
@@ -29,6 +43,7 @@ from .setting import Setting
     },
     after="willmore_conformal",
     total_after="dirichlet",
+    of_faces=_of_faces,
 )
 def helfrich(
     surface: Surface, h: Column, h_signed: Column, star_area: Column, face_area: Column, c0: float | Column = 0.0
@@ -40,7 +55,7 @@ def helfrich(
     """
     mean, spread = (c0, 0.0) if np.ndim(c0) == 0 else _over_stars(surface, star_area, face_area, np.asarray(c0))
     with np.errstate(over="ignore", invalid="ignore"):
-        bent = np.where(mean == 0, h, h_signed - mean)
+        bent = np.where((mean == 0) & (spread == 0), h, h_signed - mean)
         energy: Column = 0.5 * (bent * bent * star_area + spread)
     return np.where(np.isinf(energy), np.nan, energy)
 

@@ -30,7 +30,9 @@ class Pass:
 
     pointwise: its values at a vertex depend on the arguments at that vertex only. Arguments are then columns and masks
     of vertices, results are numbers and flags, and the function is called with blocks of vertices.
-    settings: its parameters with defaults. registry: the registry of the pass.
+    settings: its parameters with defaults. of_faces: for a measure of vertices whose settings differ from face to face,
+    the function of the same arguments that splits it: (F,) parts of the faces, and (F,) sizes of their terms.
+    registry: the registry of the pass.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Pass:
     needs: tuple[str, ...]
     pointwise: bool = False
     settings: tuple[Setting, ...] = ()
+    of_faces: Callable[..., tuple[Any, Any]] | None = None
     registry: Registry | None = field(default=None, repr=False, compare=False)
 
     def __reduce__(self) -> tuple[Callable[..., Pass], tuple[Registry | None, str]]:
@@ -217,13 +220,14 @@ def curvature_pass(
     *,
     pointwise: bool = False,
     settings: Mapping[str, Setting] | None = None,
+    of_faces: Callable[..., tuple[Any, Any]] | None = None,
     **declaration: Any,
 ) -> Callable[[Callable[..., Any]], Pass]:
     """Register a function as a pass.
 
     Without `provides`, the function's name is its one quantity and the keywords are the fields of `Quantity`; with it,
-    the function returns a tuple of arrays in that order. `pointwise`: see `Pass`. Parameters of the function that have
-    a default are its settings; `settings` describes them by name.
+    the function returns a tuple of arrays in that order. `pointwise`, `of_faces`: see `Pass`. Parameters
+    of the function that have a default are its settings; `settings` describes them by name.
     """
 
     def register(function: Callable[..., Any]) -> Pass:
@@ -232,7 +236,7 @@ def curvature_pass(
         quantities = provides or (Quantity(name, **declaration),)
         quantities = tuple(q if q.description else replace(q, description=text) for q in quantities)
         needs, described = split_signature(function, settings or {})
-        new = Pass(name, function, quantities, needs, pointwise, described)
+        new = Pass(name, function, quantities, needs, pointwise, described, of_faces)
         return passes.add(new)
 
     return register

@@ -324,3 +324,37 @@ def test_derived_totals_change_as_declared() -> None:
 def test_an_energy_beyond_doubles_is_null(c0: float) -> None:
     surface = meshes.icosphere().surface()
     assert np.isnan(curvcli.passes["helfrich"](surface, c0=c0)).all()
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_shares_of_regions_with_their_own_value_add_up(kind: str) -> None:
+    """Each face has its part of a star with its own c₀, however the regions lie; so on a whole surface of one c₀."""
+    surface = meshes.zoo(kind).surface()
+    label = np.random.default_rng(5).integers(-1, 3, surface.n_faces)
+    label[0] = 0
+    names = [str(name) for name in np.unique(label[label >= 0])]
+    c0 = dict(zip(names, (0.0, 0.75, -1e3), strict=False))
+    analysis = curvcli.analyze(surface, "helfrich", regions=label, spontaneous_curvature=c0)
+    (check,) = (check for check in analysis.checks if check.name == "partition")
+    assert check.status in ("pass", "not_applicable"), check
+    area, h = curvcli.passes.area_of_face(surface), curvcli.passes.h_signed(surface)
+    own = np.array([c0.get(str(name), 0.0) for name in label])
+    each = 0.5 * (h[surface.faces] - own[:, None]) ** 2 * area[:, None] / 3
+    if surface.orientable:
+        wanted = np.nansum(each)
+        assert analysis.totals["helfrich"] == pytest.approx(wanted, rel=1e-12)
+        shares = {region["name"]: region["shares"]["helfrich"] for region in analysis.report()["regions"]}
+        for name in names:
+            assert shares[name] == pytest.approx(np.nansum(each[label == int(name)]), rel=1e-12, abs=1e-12 * wanted)
+
+
+def test_shares_are_in_the_unit_of_the_rigidity() -> None:
+    ball = sphere(162).surface()
+    label = np.arange(ball.n_faces) % 2
+    plain, turned = (
+        [region["shares"] for region in curvcli.analyze(ball, "helfrich", regions=label, **more).report()["regions"]]
+        for more in ({}, {"bending_rigidity": "20kBT"})  # type: ignore[arg-type]
+    )
+    for one, other in zip(plain, turned, strict=True):
+        assert other["helfrich"] == pytest.approx(20 * one["helfrich"], rel=1e-15)
+        assert other["area"] == one["area"]
