@@ -84,20 +84,20 @@ def analyze(
     """Compute curvatures of a surface, their totals and the identities that they must satisfy.
 
     surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
-    passes: a preset (`topology`, `core`, `paper`, `estimates`, `all`) or names; None is `core`, and `estimates` if
-    `rings` or `radius` is given. area: the cell of `K_density`. mean: the convention for H, κ₁ + κ₂ (`sum`) or half of
-    it (`average`). orient: `file`, or `outward` to turn closed patches that are inside out; None keeps the choice of a
-    Surface and is `file` otherwise. weld: the rule for merging vertices of a file, see `curvcli.load`. unit: a label
-    for lengths. regions: a label per face (negative: none), or the name of the file, record or property that holds the
-    labels. checks: names of the identities to test; None tests those whose quantities the passes provide. rings,
-    radius: the scale of estimates, in rings of edges or as a radius (a length, or mean edge lengths such as `3e`);
-    several (`2e,4e`, or a list) give one column each. normals: the normals of the corrected curvatures, those of the
-    mesh or of the file. noise: the standard deviation of each coordinate, for `K_sigma` and `h_sigma`; None is the
-    precision of the coordinates. stat: the statistics of every column for each region and component in the report,
-    such as `count,mean,area_mean,p02`; without it, regions have those of the whole surface, and components have none.
-    settings: values of the parameters of passes by PASS.NAME, such as
-    `{"helfrich.c0": 0.5}`, in the file's unit of length. spontaneous_curvature: the same for `helfrich.c0`; by region,
-    a mapping from its name to a value. bending_rigidity: `20kBT` or `8e-20J`, which energies are multiplied by.
+    passes: a preset (`topology`, `core`, `paper`, `estimates`, `folding`, `all`) or names; None is `core`, and
+    `estimates` if `rings` or `radius` is given. area: the cell of `K_density`. mean: the convention for H, κ₁ + κ₂
+    (`sum`) or half of it (`average`). orient: `file`, or `outward` to turn closed patches that are inside out; None
+    keeps the choice of a Surface and is `file` otherwise. weld: the rule for merging vertices of a file, see
+    `curvcli.load`. unit: a label for lengths. regions: a label per face (negative: none), or the name of the file,
+    record or property that holds the labels. checks: names of the identities to test; None tests those whose quantities
+    the passes provide. rings, radius: the scale of estimates, in rings of edges or as a radius (a length, or mean edge
+    lengths such as `3e`); several (`2e,4e`, or a list) give one column each. normals: the normals of the corrected
+    curvatures, those of the mesh or of the file. noise: the standard deviation of each coordinate, for `K_sigma` and
+    `h_sigma`; None is the precision of the coordinates. stat: the statistics of every column for each region and
+    component in the report, such as `count,mean,area_mean,p02`; without it, regions have those of the whole surface,
+    and components have none. settings: values of the parameters of passes by PASS.NAME, such as `{"helfrich.c0": 0.5}`,
+    in the file's unit of length. spontaneous_curvature: the same for `helfrich.c0`; by region, a mapping from its name
+    to a value. bending_rigidity: `20kBT` or `8e-20J`, which energies are multiplied by.
     Errors: UsageError for an unknown name or an unsuitable option, InputError for a mesh that is no surface.
     """
     options: dict[str, Any] = {

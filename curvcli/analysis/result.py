@@ -74,6 +74,7 @@ class Result:
             *self._totalled,
             *self._flags,
             *beside(self.chosen),
+            *(("star_extent",) if "h_signed" in self.chosen else ()),  # of the rounding of H
             *(need for rule in self._rules for need in rule.needs),
         ]
         besides = {*request.besides}.difference(wanted)

@@ -84,8 +84,8 @@ passes = click.option(
     "passes",
     metavar="NAME[,NAME]",
     multiple=True,
-    help="Columns to compute, or a preset: topology, core (default), paper, estimates, all. `curvcli passes` lists "
-    "them.",
+    help="Columns to compute, or a preset: topology, core (default), paper, estimates, folding, all. `curvcli passes` "
+    "lists them.",
 )
 area = click.option(
     "--area",

@@ -28,6 +28,7 @@ BUILT_IN = (
     "principal",
     "willmore",
     "membranes",
+    "folding",
     "conformal",
     "dirichlet",
     "averaged",
@@ -44,6 +45,9 @@ CORE = (
     *("kappa_1", "kappa_2", "willmore", "willmore_hks"),
 )
 
+
+# Rectified integrals and the indices of cortical folding.
+FOLDING = ("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_curvature_index")
 
 # Standard deviations of K and h for noisy coordinates.
 UNCERTAINTIES = ("K_sigma", "h_sigma")
@@ -63,6 +67,7 @@ def presets() -> dict[str, Sequence[str]]:
         "core": CORE,
         "paper": [q.name for q in public if q.source.startswith("Sullivan")],
         "estimates": [q.name for q in public if _estimates(q)],
+        "folding": FOLDING,
         "all": [q.name for q in public],
     }
 

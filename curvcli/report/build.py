@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from .._version import __version__
 from ..analysis.configuration import configured
+from ..checks.signs import area_fractions
 from ..checks.special import competing_normals, constant_mean_curvature, steiner
 from ..mesh.counts import classify, count_groups, duplicate_faces, duplicate_vertices
 from ..mesh.groups import Groups
@@ -21,6 +22,7 @@ from ..support.cache import cached
 from .model import (
     CONVENTIONS,
     Cmc,
+    Fractions,
     Minimal,
     Normals,
     Piece,
@@ -58,6 +60,7 @@ def model(analysis: Result) -> Report:
         cmc=whole.cmc,
         minimal=whole.minimal,
         normals=whole.normals,
+        fractions=whole.fractions,
         components=_components(analysis),
         loops=loops(analysis),
         regions=_regions(analysis),
@@ -152,7 +155,10 @@ def _extras(analysis: Result, groups: Groups) -> dict[str, Callable[[int], Any]]
     """Values that need certain passes: for each key a function from the group to its value."""
     surface, columns = analysis.surface, analysis.columns
     factor = 0.5 if analysis.conventions.mean == "average" else 1.0
-    extras: dict[str, Callable[[int], Any]] = {}
+    signs = {key: _json_list(values) for key, values in area_fractions(surface, groups, columns).items()}
+    extras: dict[str, Callable[[int], Any]] = {
+        "fractions": lambda group: Fractions(**{key: values[group] for key, values in signs.items()})
+    }
     if columns.keys() >= {"H_vec", "A_vec"}:
         bent = constant_mean_curvature(surface, groups, columns)
         exponents = {"H": -1, "residual_max": 1, "residual_density_max": -1, "H_vec_max": 1, "H_vec_density_max": -1}

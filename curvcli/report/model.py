@@ -100,6 +100,17 @@ class Normals(msgspec.Struct):
     angle_mean: float | None
 
 
+class Fractions(msgspec.Struct, omit_defaults=True):
+    """Fractions of the area by the sign of K and of H, over the vertices that have a value; zero is within rounding."""
+
+    K_positive: float | None
+    K_negative: float | None
+    K_zero: float | None
+    H_positive: float | msgspec.UnsetType | None = msgspec.UNSET
+    H_negative: float | msgspec.UnsetType | None = msgspec.UNSET
+    H_zero: float | msgspec.UnsetType | None = msgspec.UNSET
+
+
 class Piece(msgspec.Struct, omit_defaults=True):
     """The whole surface, one component or one region of it; `name` of a region.
 
@@ -113,6 +124,7 @@ class Piece(msgspec.Struct, omit_defaults=True):
     cmc: Cmc | msgspec.UnsetType = msgspec.UNSET
     minimal: Minimal | msgspec.UnsetType = msgspec.UNSET
     normals: Normals | msgspec.UnsetType = msgspec.UNSET
+    fractions: Fractions | msgspec.UnsetType = msgspec.UNSET
     shares: dict[str, Value] | msgspec.UnsetType = msgspec.UNSET
     columns: dict[str, Statistics] | msgspec.UnsetType = msgspec.UNSET
     name: str | msgspec.UnsetType = msgspec.UNSET
@@ -138,6 +150,7 @@ class Report(msgspec.Struct, omit_defaults=True, kw_only=True):
     cmc: Cmc | msgspec.UnsetType = msgspec.UNSET
     minimal: Minimal | msgspec.UnsetType = msgspec.UNSET
     normals: Normals | msgspec.UnsetType = msgspec.UNSET
+    fractions: Fractions | msgspec.UnsetType = msgspec.UNSET
     components: list[Piece]
     loops: list[dict[str, str | int | bool | Value]]
     regions: list[Piece]

@@ -168,7 +168,7 @@ def _needs(name: str) -> list[str]:
 
 def smallest_preset(quantity: Quantity) -> str:
     """Smallest preset that has the quantity."""
-    presets = ("core", "paper", "estimates")
+    presets = ("core", "paper", "estimates", "folding")
     return next((preset for preset in presets if quantity.name in resolve([preset])), "all")
 
 

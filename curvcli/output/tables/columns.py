@@ -144,7 +144,8 @@ def _piece_columns(pieces: list[Piece]) -> Table:
         elif isinstance(first, msgspec.Struct):
             for key, declared in get_type_hints(type(first), include_extras=True).items():
                 name = key if section == "topology" else f"{section}_{key}"
-                table |= _declared(name, [getattr(part, key) for part in each], declared)
+                if getattr(first, key) is not msgspec.UNSET:
+                    table |= _declared(name, [getattr(part, key) for part in each], declared)
     return table
 
 
