@@ -123,7 +123,7 @@ def test_threads_do_not_disturb_each_other() -> None:
 
 
 def test_threads_may_share_a_surface() -> None:
-    """What it works out on demand is asked for by all of them at once."""
+    """All threads request its lazy properties at once."""
     given = meshes.of_sample("irregular_torus", size=2000)
     wanted = fingerprint(curvcli.analyze(Surface(*given), "all"))
     for _ in range(2):
@@ -208,7 +208,7 @@ def no_collector() -> Iterator[None]:
 @pytest.mark.usefixtures("no_collector")
 @pytest.mark.parametrize("suffix", [".obj", ".ply", ".stl"])
 def test_a_mesh_is_let_go_with_its_last_user(suffix: str) -> None:
-    """Who reads one mesh after the other needs the memory of one: nothing holds itself."""
+    """Meshes read one after the other need the memory of one: no object refers to itself."""
     surface = curvcli.load(Path(__file__).parents[1] / f"sample_meshes/sphere{suffix}")
     analysis = curvcli.analyze(surface, "all")
     analysis.report()

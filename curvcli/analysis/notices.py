@@ -108,7 +108,7 @@ def _vertices_and_faces(surface: Surface, columns: Mapping[str, Any]) -> Iterato
         "[face|faces] with the same corners as an earlier one",
         "see facing_faces: each side of a common wall belongs to its body"
         if len(twice) == len(pairs)
-        else "remove [it|them] , unless you mean both sides: each adds to area and angles",
+        else "remove [it|them], unless you mean both sides: each adds to area and angles",
     )
     yield Notice.at(
         "facing_faces",

@@ -101,7 +101,7 @@ def test_resume_does_what_changed(scans: Path, run: Run) -> None:
     first = manifest("out")
 
     def done() -> set[str]:
-        """What the run did, by the lines it added."""
+        """Names of the meshes that the run did, by the lines it added to the manifest."""
         lines = Path("out/manifest.jsonl").read_text().splitlines()[len(first) :]
         Path("out/manifest.jsonl").write_text("".join(f"{json.dumps(row)}\n" for row in manifest("out").values()))
         return {json.loads(line)["path"] for line in lines}

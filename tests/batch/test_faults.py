@@ -86,7 +86,7 @@ def run(environment: dict[str, str], folder: Path, out: str, *more: str) -> subp
 
 
 def told(environment: dict[str, str], folder: Path, process: subprocess.Popen[bytes]) -> list[int]:
-    """What the hanging mesh tells: the numbers of its worker's parent and of the worker."""
+    """Process numbers that the hanging mesh writes: of its worker's parent and of the worker."""
     with open(os.open(environment["TRAP_TOLD"], os.O_RDONLY | os.O_NONBLOCK), "rb") as pipe:
         assert select.select([pipe], [], [], 60)[0], "the trap was not reached"
         assert process.poll() is None
@@ -214,7 +214,7 @@ for number in range(3):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no limit of the address space")
 def test_a_worker_has_the_memory_of_each_mesh_for_the_next(tmp_path: Path) -> None:
-    """What one mesh takes below the limit, the same mesh takes again and again."""
+    """A mesh that fits below the limit once fits again and again."""
     from curvcli.samples import get
 
     made = get("torus")(size=300_000)

@@ -16,7 +16,7 @@ from tests.batch.conftest import ALL
 
 
 def stems(folder: str, *patterns: str, files_from: str | None = None) -> list[str]:
-    """Where the one output of each mesh goes, relative to the folder."""
+    """Place of the one output of each mesh, relative to the folder."""
     items = plan(patterns, files_from, folder, ["csv"])
     return [os.path.relpath(item.outputs[0][1], folder).removesuffix(".csv") for item in items]
 

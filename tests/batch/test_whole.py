@@ -1,4 +1,4 @@
-"""What a resumed batch takes for done is there to the last byte, and no output of a mesh meets another file."""
+"""A resumed batch skips only outputs that are complete to the last byte, and no output of a mesh meets another file."""
 
 from __future__ import annotations
 

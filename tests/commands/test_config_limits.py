@@ -1,4 +1,4 @@
-"""What a configuration may not do, how far it is searched for, and that every verdict names what it had a part in."""
+"""Limits of configuration: no files, no search beyond the repository, and its part in a verdict is named."""
 
 from __future__ import annotations
 

@@ -172,7 +172,7 @@ def test_one_bad_mesh_does_not_stop_the_others(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a folder that somebody is in may not be removed")
 def test_a_working_folder_that_is_gone(tmp_path: Path) -> None:
-    """What is named by its whole path is done, what is not is not found."""
+    """A mesh with an absolute path is analysed, a mesh with a relative one is not found."""
 
     def run(*arguments: str) -> tuple[int, str]:
         (tmp_path / "gone").mkdir()

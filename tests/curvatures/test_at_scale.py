@@ -26,7 +26,7 @@ def inside_out(mesh: Mesh) -> Mesh:
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_umbilics_are_caps_or_cups(side: int) -> None:
-    """Where H² < 4K both curvatures are H/2."""
+    """Both curvatures are H/2 where H² < 4K."""
     convex = meshes.ellipsoid() if side > 0 else inside_out(meshes.ellipsoid())
     found = curvcli.analyze(convex.surface(), ["kappa_1", "kappa_2", "shape_index"])
     equal = found.vertices["kappa_1"] == found.vertices["kappa_2"]
@@ -117,3 +117,15 @@ def test_a_scale_that_does_not_apply_is_named(names: list[str] | None, missed: s
         assert found["not_at_scale"].message.endswith(f"(radius of 3 mean edge lengths): {missed}")
         assert "_corrected" in str(found["not_at_scale"].hint)
     assert "not_at_scale" not in {notice.code for notice in curvcli.analyze(surface, names).notices}
+
+
+@pytest.mark.parametrize("name", ["book", "pinched", "mobius"])
+def test_columns_of_stars_do_not_depend_on_the_number_of_scales(name: str) -> None:
+    """At vertices of several fans too, where estimates are null."""
+    mesh = meshes.of_sample(name)
+    columns = ["K", "A", "H_vec", "willmore", "K_ring"]
+    single, several = (curvcli.analyze(mesh.surface(), columns, rings=rings) for rings in (1, [1, 3]))
+    for column in ("K", "A", "H_vec", "willmore"):
+        np.testing.assert_array_equal(several.vertices[column], single.vertices[column])
+    np.testing.assert_array_equal(several.vertices["K_ring_1rings"], single.vertices["K_ring"])
+    assert {check.name: check.status for check in several.checks} == {c.name: c.status for c in single.checks}

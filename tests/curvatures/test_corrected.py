@@ -34,7 +34,7 @@ def with_normals(points: np.ndarray, faces: np.ndarray, normal: np.ndarray) -> S
 
 @pytest.mark.parametrize(("name", "bound"), [("sphere", 1e-9), ("torus", 0.03), ("ellipsoid", 0.035)])
 def test_on_random_points(name: str, bound: float) -> None:
-    """Where the angle defect per area is wrong by half of itself and more."""
+    """The angle defect per area is wrong there by half of itself and more."""
     known, found = estimated(name)
     assert error(found.vertices["K_corrected"], known.K) < bound
     assert error(found.vertices["h_corrected"], known.H) < bound / 2

@@ -134,7 +134,7 @@ def test_an_unknown_pass_is_no_attribute_and_no_key() -> None:
 
 @pytest.mark.parametrize("quantity", passes.quantities(), ids=lambda quantity: quantity.name)
 def test_declarations_are_complete(quantity: Quantity) -> None:
-    """What a user is told about a column is there, and consistent."""
+    """A column has all the texts that users read, and they agree."""
     assert quantity.symbol
     assert quantity.formula
     assert quantity.description.split("\n")[0].endswith(".")

@@ -88,7 +88,7 @@ def test_corners_in_one_place() -> None:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_corners_in_one_place_anywhere(seed: int) -> None:
-    """Where no coordinate is round, rounding gives the face no area and its corners no angle."""
+    """Rounding of coordinates gives the face no area and its corners no angle."""
     rng = np.random.default_rng(seed)
     points = octahedron().points + rng.normal(size=(6, 3))
     points[:, 0] *= 1e11
@@ -171,7 +171,7 @@ def test_slivers_match_sums_in_60_digits(kind: object, aspect: float) -> None:
 @pytest.mark.parametrize("scale", [1e-150, 1e-140, 1e-100, 1e100, 1e140, 1e150, 1e160, 1e-160])
 @pytest.mark.parametrize("name", ["tetrahedron", "grid", "torus"])
 def test_ends_of_the_range(name: str, scale: float) -> None:
-    """What no double holds is null, everything else as good as elsewhere."""
+    """Values beyond the range of doubles are null, all others as exact as elsewhere."""
     given = meshes.zoo(name)
     matches(given.moved(given.points * scale))
 
@@ -210,7 +210,7 @@ def test_a_large_fan_sums_to_its_defect() -> None:
 @pytest.mark.parametrize("scale", [2.0**-100, 1.0, 2.0**100])
 @pytest.mark.parametrize(("ratio", "lost"), [(0.9e-12, True), (1.1e-12, False), (1e-6, False)])
 def test_where_the_vector_area_is_lost(ratio: float, lost: bool, scale: float) -> None:
-    """What divides by |**A**_p| is null where that is below 1e-12 A_p; nothing else is."""
+    """Only quotients by |**A**_p| are null where it is below 1e-12 A_p."""
     # The area vector of the first corner's star is minus that of the opposite face, which is as thin as told.
     height = ratio * np.sqrt(2)
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0.5, height]])

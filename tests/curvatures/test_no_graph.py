@@ -98,7 +98,7 @@ def test_every_scale_has_its_own_count() -> None:
 @needs_shared
 @pytest.mark.parametrize("rings", [1, 2, 3])
 def test_fits_on_a_cortex_agree_with_other_estimates(rings: int) -> None:
-    """Where a fit is left it is of the size of the other estimates and goes with them, which it did not at all."""
+    """Fits that are defined have the size of the other estimates and correlate with them."""
     assert SHARED is not None
     path = SHARED / "meshes" / "fsaverage5_pial_lh.ply"
     found = curvcli.analyze(str(path), "h_fit,h_corrected,h_ring,condition_fit", rings=rings, checks=[])

@@ -228,7 +228,7 @@ def test_a_patch_without_orientation_does_not_change_how_others_are_estimated() 
 
 
 def test_edges_far_shorter_than_another_patch_is_wide() -> None:
-    """Which sums are taken pair by pair is decided for each vertex."""
+    """The choice of sums that are taken pair by pair is made for each vertex."""
     tiny = meshes.of_sample("irregular_ellipsoid", size=200)
     wide = meshes.of_sample("plane", size=400, width=1.0)
     shape = wide.points * [1e6, 1.0, 1.0]

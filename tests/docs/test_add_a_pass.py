@@ -17,7 +17,7 @@ PLUGIN = "Write plugin/pyproject.toml"
 
 
 def install(project: Path) -> None:
-    """What `pip install ./plugin` does, from the plug-in's own description."""
+    """Install the plug-in as `pip install ./plugin` does, from its own description."""
     about = tomllib.loads((project / "plugin/pyproject.toml").read_text())["project"]
     info = project / "plugin" / f"{about['name'].replace('-', '_')}-{about['version']}.dist-info"
     info.mkdir()

@@ -37,7 +37,7 @@ class Broken(Exception):  # noqa: N818 - a finding of the search, not a failure 
 
 
 def way(error: BaseException) -> str:
-    """What identifies a finding: the place of an internal error, or of the assertion and what it says but numbers."""
+    """Identity of a finding: the place of an internal error, or of the assertion with its text without numbers."""
     place = re.search(r"internal error: .*\([\w.]+:\d+\)", str(error))
     if place:
         return place[0]

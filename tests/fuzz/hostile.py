@@ -15,7 +15,7 @@ Polygons = NDArray[np.int64] | list[list[int]]
 
 @dataclass(frozen=True)
 class Hostile:
-    """How to make the file of a size n, the options that make it worse, and bytes of memory allowed for each of n."""
+    """Maker of the file of a size n, the options that make it worse, and bytes of memory allowed for each of n."""
 
     suffix: str
     make: Callable[[int], bytes]

@@ -1,4 +1,4 @@
-"""What the files mean before they are damaged: sound bodies, sheets and heaps of polygons, at any scale and place."""
+"""Meshes of the files before damage: sound bodies, sheets and heaps of polygons, at any scale and place."""
 
 from __future__ import annotations
 

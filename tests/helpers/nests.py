@@ -147,7 +147,7 @@ def lattice_body(rng: np.random.Generator, wide: int) -> Mesh:
 
 
 def convex_pair(one: Mesh, other: Mesh) -> tuple[bool, bool, bool]:
-    """Whether two convex bodies cross, whether the first lies in the second, and the second in the first.
+    """Flags: two convex bodies cross, the first lies in the second, the second lies in the first.
 
     By linear programming: the radius of the largest ball in both.
     """

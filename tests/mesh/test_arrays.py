@@ -165,7 +165,7 @@ def test_one_check_may_be_named_by_a_word() -> None:
 
 @pytest.mark.parametrize("weld", ["exact", "none", 1e-6])
 def test_only_files_are_welded(tmp_path: Path, weld: str | float) -> None:
-    """What was merged otherwise when it was read, or is no file, is refused and not passed over."""
+    """Another way of welding is refused for arrays, and for a file that was read with its own."""
     file = tmp_path / "mesh.obj"
     file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 4 3 2\n")
     same = curvcli.load(file, weld=weld)

@@ -1,4 +1,4 @@
-"""What is done with a mesh keeps nothing of it: many meshes in one process need the memory of one."""
+"""No work on a mesh keeps its memory: many meshes in one process need the memory of one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the program says of a mesh is true: digits that are lost, results without a double, what welding would do."""
+"""True statements about a mesh: digits that are lost, results beyond doubles, the effect of welding."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_no_check_passes_on_numbers_that_no_double_holds(exponent: int) -> None:
 
 
 def test_a_failing_check_fails_in_any_unit() -> None:
-    """What rounding cannot explain in the unit of computation fails, whether or not doubles hold it in the file's."""
+    """A residual beyond rounding in the unit of computation fails, even if no double holds it in the file's."""
     surface = Surface(scaled(-1000).points, scaled(-1000).faces)
     columns = dict(analysis(scaled(-1000), "paper").columns)
     columns["area_gradient"] = columns["area_gradient"] + 1.0
@@ -90,7 +90,7 @@ def test_a_failing_check_fails_in_any_unit() -> None:
 
 
 def test_nothing_is_out_of_range_where_it_was_never_defined() -> None:
-    """What is null for another reason is not counted: no area, no boundary curvature, no volume."""
+    """Values that are null for another reason are not counted: no area, no boundary curvature, no volume."""
     flat = meshes.grid()
     far = analysis(flat.moved(np.ldexp(flat.points, 300)))
     assert far.totals["volume"] is None

@@ -34,7 +34,7 @@ def test_a_full_disk(suffix: str, small: Path, tiny: Path) -> None:
 
 
 def test_a_disk_full_at_the_second_output(small: Path, tiny: Path) -> None:
-    """What fits is not kept without the rest, and what was there stays."""
+    """An output that fits is not kept without the others, and existing files stay."""
     report, table = tiny / "k.json", tiny / "k.csv"
     report.write_text("mine")
     ended = curvcli("analyze", small, "-q", "--force", "-o", report, "-o", table)

@@ -1,4 +1,4 @@
-"""What is read is read to its end, and is one state of its file: else it is refused."""
+"""Inputs are read to their end and in one state of their file, else refused."""
 
 from __future__ import annotations
 

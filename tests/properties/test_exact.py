@@ -42,7 +42,7 @@ def analysis(name: str, scale: float = 1.0) -> Analysis:
 
 @cache
 def rounding(name: str, scale: float) -> float:
-    """What the rounding of scaled coordinates may change, relative to the size of a column."""
+    """Largest change by the rounding of scaled coordinates, relative to the size of a column."""
     if math.frexp(scale)[0] == 0.5:
         return 0.0
     surface = curvcli.load(exact.MESHES[name])

@@ -181,7 +181,7 @@ def test_order_of_vertices(name: str) -> None:
 
 
 def reversed_column(quantity: Quantity, columns: Columns, without: Array) -> Array:
-    """What the column becomes when all faces are reversed, by its declared parity.
+    """The column after all faces are reversed, by its declared parity.
 
     without: elements of patches that have no orientation, where what is odd holds absolute values or nulls.
     """

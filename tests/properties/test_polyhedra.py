@@ -125,7 +125,7 @@ def test_a_flat_triangle_seen_from_both_sides(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(8))
 def test_folds_are_convex(seed: int) -> None:
-    """Where a surface folds onto itself rounding has no say: θ = +π, from whichever side it is seen."""
+    """θ = +π from both sides, in spite of rounding, where a surface folds onto itself."""
     corners = np.random.default_rng(seed).normal(size=(4, 3))
     corners[3] = corners[2] + 0.25 * (corners[1] - corners[0])
     for faces in ([[0, 1, 2], [1, 0, 3]], [[1, 0, 2], [0, 1, 3]], [[0, 1, 2], [0, 1, 3]]):

@@ -1,5 +1,5 @@
-"""What other systems start: the hook, the action and the image name commands that there are, and the action's script
-does what its inputs say."""
+"""Files for other systems: the hook, the action and the image name existing commands, and the script of the action
+follows its inputs."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ FLAT_SAMPLES = ("plane", "icosphere", "developable_strip", "schwarz_lantern")
 
 @pytest.mark.parametrize("name", FLAT_SAMPLES)
 def test_roots_of_differences_are_those_declared(name: str) -> None:
-    """Where the surface is flat or umbilic, turning it moves cells of no star column beyond what rounding may do."""
+    """A turn of a flat or umbilic surface moves cells of star columns by rounding only."""
     made = get(name)(**({"size": 150} if name != "icosphere" else {}))
     c, s = np.cos(1.0), np.sin(1.0)
     turned = np.array(made.points) @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])

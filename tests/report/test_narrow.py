@@ -1,4 +1,4 @@
-"""What is printed of curves, checks, differences, maps and errors, at every width: nothing cut off, nothing wider."""
+"""Prints of curves, checks, differences, maps and errors at every width: nothing cut off, nothing wider."""
 
 from __future__ import annotations
 

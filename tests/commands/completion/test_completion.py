@@ -20,7 +20,7 @@ RC = "alias ll='ls -l'\nexport EDITOR=vi"  # without a last newline, as many hav
 
 
 def offered(line: str) -> list[str]:
-    """What bash is told about a line whose last word is incomplete."""
+    """Completions for bash of a line whose last word is incomplete."""
     *words, incomplete = line.split(" ")[1:]
     shell = ASKING["bash"](cli, {}, "curvcli", COMPLETE)
     return [shell.format_completion(item) for item in shell.get_completions(words, incomplete)]

@@ -64,7 +64,7 @@ class Terminal:
         os.write(self.screen, keys.encode())
 
     def until(self, words: bytes) -> bytes:
-        """What is shown until these words come."""
+        """Text shown until these words come."""
         end = time.monotonic() + 120
         while words not in self.seen:
             assert select.select([self.screen], [], [], max(0, end - time.monotonic()))[0], self.seen

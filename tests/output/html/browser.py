@@ -73,7 +73,7 @@ class Tab:
         return {row.locator("th").inner_text(): row.locator("td").first.inner_text() for row in rows}
 
     def picture(self) -> NDArray[np.uint8]:
-        """What the canvas shows, (height, width, 4)."""
+        """Pixels of the canvas, (height, width, 4)."""
         import base64
 
         from matplotlib.image import imread

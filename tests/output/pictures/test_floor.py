@@ -44,7 +44,7 @@ def of(mesh: Mesh, scale: float = 1.0, shift: float = 0.0, single: bool = False)
 
 
 def colors_of(analysis: Analysis, name: str) -> tuple[int, str]:
-    """How many colours the defined values have, and what the legend says."""
+    """Number of colours of the defined values, and the text of the legend."""
     scale = colored(analysis, name).scale
     known = np.isfinite(analysis.vertices[name])
     return len(np.unique(scale.rgb[known], axis=0)), range_text(scale, None)
