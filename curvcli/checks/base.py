@@ -74,7 +74,8 @@ class CheckRule:
 
     statement: the identity. gap: the residual as failures name it. applies: the condition for a test.
     bound: the derivation of the tolerance. failure: the meaning of a failure. of_shares: it compares the shares of all
-    regions with the totals of the whole, and runs only where there are regions.
+    regions with the totals of the whole, and runs only where there are regions. after: the check that it follows in the
+    report, "" for the first; None comes last.
     """
 
     name: str
@@ -86,6 +87,7 @@ class CheckRule:
     bound: str = ""
     failure: str = ""
     of_shares: bool = False
+    after: str | None = None
 
     def __reduce__(self) -> tuple[Callable[[str, str], CheckRule], tuple[str, str]]:
         """Pickle a rule by its name."""
@@ -125,7 +127,7 @@ class CheckRule:
         return Check(self.name, scope, "pass", value, expected, residual, tolerance, detail)
 
 
-# By name, in the order of import; `catalogue.identities` gives the order of the report.
+# By name; `catalogue.identities` gives the order of the report.
 registered: dict[str, CheckRule] = {}
 
 
@@ -135,10 +137,12 @@ def _rule_of(module: str, name: str) -> CheckRule:
     return registered[name]
 
 
-def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., IdentityValues]], CheckRule]:
+def check(
+    *, gap: str, applies: str, bound: str, failure: str, after: str | None = None
+) -> Callable[[Callable[..., IdentityValues]], CheckRule]:
     """Register a check under its function's name; its parameters after surface and groups are the quantities it needs.
 
-    The keywords are the fields of `CheckRule` for people; the function's docstring is the identity.
+    The keywords are fields of `CheckRule`; the function's docstring is the identity.
     """
 
     def register(function: Callable[..., IdentityValues]) -> CheckRule:
@@ -146,7 +150,7 @@ def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Call
         of_shares = SHARES in parameters
         needs = () if of_shares else parameters
         statement = inspect.cleandoc(function.__doc__ or "")
-        rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure, of_shares)
+        rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure, of_shares, after)
         registered[rule.name] = rule
         return rule
 

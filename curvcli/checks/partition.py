@@ -36,6 +36,7 @@ class Share:
     applies="surfaces with --regions",
     bound="(16 + log₂N)ε · Σ|terms| + ε · Σ over the elements on borders of their number of faces · |term|",
     failure="a value belongs to no region or to several.",
+    after="dirichlet",
 )
 def partition(surface: Surface, groups: Groups, shares: Sequence[Share]) -> IdentityValues:
     """The shares of all regions and of the faces without a region add up to the total of the whole, for every total.
