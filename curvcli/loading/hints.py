@@ -29,7 +29,7 @@ _WAYS_OUT = {
     "pvtp": "it names files of pieces, which are never opened by reference: give the .vtp files themselves",
     **dict.fromkeys(("step", "stp", "iges", "igs", "brep"), _GMSH),
     **dict.fromkeys(
-        ("3dm", "3mf", "amf", "catpart", "dwg", "dxf", "f3d", "fcstd", "ipt", "jt", "prt", "scad", "sldprt", "x_t"),
+        ("3dm", "amf", "catpart", "dwg", "dxf", "f3d", "fcstd", "ipt", "jt", "prt", "scad", "sldprt", "x_t"),
         _CAD,
     ),
     **dict.fromkeys(("3ds", "abc", "blend", "c4d", "dae", "fbx", "ma", "max", "mb", "usd", "usda", "usdz"), _SCENE),

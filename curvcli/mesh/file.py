@@ -68,6 +68,7 @@ class MeshFile:
     weld: the rule that merged vertices: `none`, `exact` or a tolerance.
     corner_normals: (3, V) sums of an OBJ file's unit normals over the corners at each vertex, on request.
     corner_texture: (2, C) texture coordinates of the corners of an OBJ file, NaN where it gives none, on request.
+    unit: name of the unit of length that the file gives.
     notices: warnings about accepted content.
     """
 
@@ -86,6 +87,7 @@ class MeshFile:
     weld: str = "none"
     corner_normals: NDArray[np.float64] | None = None
     corner_texture: NDArray[np.float64] | None = None
+    unit: str | None = None
     notices: tuple[Notice, ...] = ()
 
     @property
