@@ -21,7 +21,7 @@ def vector_sum(segments: Segments, vectors: Iterable[Column]) -> Floats:
 
 
 def boundary_segments(groups: Groups, half_edges: Index) -> Segments:
-    """Segments of some half-edges by the groups of their faces."""
+    """Segments of (n,) half-edges by the groups of their faces."""
     label = None if groups.faces.label is None else groups.face[half_edges // 3]
     return Segments(label, groups.count, len(half_edges))
 

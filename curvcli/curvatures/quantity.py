@@ -109,7 +109,7 @@ class Configurable(Protocol):
 
 
 class Step(Configurable, Protocol):
-    """Protocol of a pass for the engine, see `registry.Pass`."""
+    """Protocol of a pass for the engine; `registry.Pass` describes the members."""
 
     @property
     def compute(self) -> Callable[..., Any]: ...

@@ -56,6 +56,7 @@ NO_POLYLINES = Polylines(np.empty(0, np.int32), np.zeros(1, np.int64))
 class MeshFile:
     """The content of one mesh file.
 
+    format: the name of its format, `arrays` without a file.
     xyz: (3, V) float64, C-contiguous, one row per coordinate; vertex order is the file's.
     corners: int32, the corner indices (from 0) of all polygons, concatenated.
     sizes: (P,) int32, corners per polygon, or None when every polygon is a triangle (corners is then 3 P long).

@@ -19,9 +19,9 @@ class Requirement:
     """One name of --require: its test returns the fault of a mesh, or nothing.
 
     number: the value after the equals sign, `N` (a whole number), `TOL` (not negative) or none.
-    remedy: the repair of a mesh that fails. needs: the quantities that the test takes by the names of its
-    parameters, and `mean`, the convention for H. default: required of every mesh unless --allow names it. after: the
-    requirement that it follows in lists, "" for the first; None comes last.
+    statement: the property, for lists. remedy: the repair of a mesh that fails. needs: the quantities that the test
+    takes by the names of its parameters, and `mean`, the convention for H. default: required of every mesh unless
+    --allow names it. after: the requirement that it follows in lists, "" for the first; None comes last.
     """
 
     name: str
@@ -41,7 +41,7 @@ class Requirement:
 
 @dataclass(frozen=True)
 class Required:
-    """A requirement with its number."""
+    """A requirement with its number. value: the number, None without one."""
 
     requirement: Requirement
     value: float | None = None
