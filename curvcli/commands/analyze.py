@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     "tables",
     metavar="KIND=PATH",
     multiple=True,
-    help="Write another table: edges, faces, loops, regions or components; repeatable.",
+    help="Write another table: edges, faces, loops, regions, components or intersections; repeatable.",
 )
 @options.passes
 @options.regions

@@ -31,15 +31,16 @@ _TOLD = 20
 
 
 class _Requirements(click.Option):
-    """`--require`, with the names of all requirements in its help."""
+    """`--require`, with the names of all requirements and sets in its help."""
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        from ..checks.requirements.catalogue import requirements
+        from ..checks.requirements.catalogue import SETS, requirements
 
         more = ", ".join(each.usage for each in requirements().values() if not each.default)
         default = ", ".join(each.usage for each in requirements().values() if each.default)
         names, _ = super().get_help_record(ctx) or ("", "")
-        return names, f"Additional requirements: {more}; repeatable. By default: {default}."
+        sets = "; ".join(f"{name} ({', '.join(members)})" for name, members in SETS.items())
+        return names, f"Additional requirements: {more}; sets of them: {sets}; repeatable. By default: {default}."
 
 
 @click.command("check", short_help="Check identities and requirements for CI, by exit code.")
@@ -50,6 +51,12 @@ class _Requirements(click.Option):
     multiple=True,
     cls=_Requirements,
     help="Additional requirements; repeatable.",
+)
+@click.option(
+    "--sets",
+    metavar="NAME=REQUIREMENT[,REQUIREMENT]",
+    multiple=True,
+    help="Define a set of requirements for --require; repeatable. A configuration has them in a table `sets`.",
 )
 @click.option("--allow", metavar="NAME[,NAME]", multiple=True, help="Skip a requirement or an identity; repeatable.")
 @click.option(
@@ -86,6 +93,7 @@ def command(meshes: tuple[str, ...], **settings: Any) -> int:
       curvcli check parts/*.stl --require closed,outward -o check.xml
       curvcli check torus.obj --require genus=1 --assert 'absmax(h_signed) <= 50'
       curvcli check scan.ply --allow manifold,no-degenerate
+      curvcli check part.stl --require printable
     """
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
@@ -101,6 +109,7 @@ class CheckRun:
         meshes: tuple[str, ...],
         *,
         require: tuple[str, ...],
+        sets: tuple[str, ...],
         allow: tuple[str, ...],
         asserted: tuple[str, ...],
         report_format: str | None,
@@ -124,7 +133,7 @@ class CheckRun:
         self.output, self.force, self.quiet, self.verbose = output, force, quiet, verbose
         self.format = report_format or _SUFFIXES.get(os.path.splitext(output)[1].lower(), "text")
         scales = parse_scales(conventions["rings"], conventions["radius"])
-        self.plan = plan(require, allow, asserted, scales, conventions["regions"] is not None)
+        self.plan = plan(require, allow, asserted, scales, conventions["regions"] is not None, sets)
 
     def all(self) -> int:
         """Check every mesh and write the report; return the exit code."""

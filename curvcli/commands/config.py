@@ -168,8 +168,17 @@ def _checked(option: click.Option, value: Any, place: str) -> Any:
     """A value as click's default_map takes it."""
     if not option.multiple:
         return _one(option, value, place)
+    if isinstance(value, dict) and "=" in (option.metavar or ""):
+        # A table of names and values, such as [tool.curvcli.check.sets].
+        return tuple(f"{name}={_joined(option, entry, f'{place} {name}')}" for name, entry in value.items())
     values = value if isinstance(value, list) else [value]
     return tuple(_one(option, entry, place) for entry in values)
+
+
+def _joined(option: click.Option, value: Any, place: str) -> str:
+    """A value of a table, or the comma list of several."""
+    values = value if isinstance(value, list) else [value]
+    return ",".join(str(_one(option, entry, place)) for entry in values)
 
 
 def _one(option: click.Option, value: Any, place: str) -> Any:

@@ -57,7 +57,7 @@ def _formats() -> str:
 
 def _checks() -> str:
     from ..checks.catalogue import identities
-    from ..checks.requirements.catalogue import requirements
+    from ..checks.requirements.catalogue import SETS, requirements
     from ..curvatures.catalogue import load_passes
 
     load_passes()
@@ -68,6 +68,8 @@ def _checks() -> str:
         + "\nTolerances are derived rounding-error bounds, not chosen constants. A pass proves the arithmetic and the\n"
         "counting. Use requirements to check that the mesh is sound, or the one you meant.\n\n"
         + _table("Requirements (check --require, --allow); * required by default", required)
+        + "\n"
+        + _table("Sets of requirements (check --require)", [(name, ", ".join(SETS[name])) for name in SETS])
     )
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cache
 from importlib import import_module
-from pkgutil import iter_modules
 
 from ..errors import UsageError
 from ..mesh.scale import EstimatorSettings
@@ -13,8 +12,32 @@ from ..support.words import suggestion
 from .quantity import AT_SCALE, Quantity
 from .registry import Registry, passes
 
-# Modules of this folder that declare no pass.
-WITHOUT_PASSES = ("catalogue", "derived", "engine", "quantity", "registry", "setting", "settings")
+# The built-in passes, one idea per file; a pass may need only quantities of earlier files.
+BUILT_IN = (
+    "star",
+    "status",
+    "angle_defect",
+    "mean",
+    "faces",
+    "edges",
+    "absolute",
+    "directions",
+    "areas",
+    "delaunay",
+    "densities",
+    "principal",
+    "willmore",
+    "membranes",
+    "folding",
+    "conformal",
+    "dirichlet",
+    "averaged",
+    "vertex_normals",
+    "corrected",
+    "fits",
+    "at_scale",
+    "uncertainty",
+)
 
 # The default preset, in the order of the table.
 CORE = (
@@ -91,10 +114,9 @@ def load_passes() -> None:
     """
     from importlib.metadata import entry_points
 
-    with passes.in_any_order():
-        for module in iter_modules(import_module(__package__).__path__):
-            if not module.ispkg and module.name not in WITHOUT_PASSES:
-                import_module(f".{module.name}", __package__)
+    for name in BUILT_IN:
+        import_module(f".{name}", __package__)
+
     for plug_in in entry_points(group="curvcli.passes"):
         try:
             plug_in.load()

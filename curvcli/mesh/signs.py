@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from ..support.arrays import Floats, Sign
+from ..support.arrays import Floats, Mask, Sign
 from ..support.compensated import two_difference, two_product
 from .triangles import EPSILON, Vector, dot
 
@@ -26,9 +26,9 @@ _EVEN, _ODD = ((0, 1, 2), (1, 2, 0), (2, 0, 1)), ((0, 2, 1), (1, 0, 2), (2, 1, 0
 
 
 def sides(normal: Vector, other: Floats) -> Sign:
-    """(n,) sign of normal · other where it exceeds the error bound, else 0.
+    """The sign of normal · other where it exceeds the error bound, else 0; all components at most 1 in size.
 
-    normal, other: (3, n). All components of other are at most 1 in size; normal: cross products of two such vectors.
+    normal: cross products of two such vectors each.
     """
     determinant = dot(normal, other)
     result: Sign = (determinant > _ROUNDING).view(np.int8) - (determinant < -_ROUNDING).view(np.int8)
@@ -84,17 +84,26 @@ def _sign_of_difference(a: Floats, b: Floats, c: Floats, d: Floats) -> Sign:
 
 def _determinants(first: Floats, second: Floats, third: Floats) -> Sign:
     """The signs of det(first, second, third)."""
-    terms = []
-    for order, turn in (*((each, 1.0) for each in _EVEN), *((each, -1.0) for each in _ODD)):
-        a, b, c = (vector[row] for vector, row in zip((first, second, third), order, strict=True))
-        for part in two_product(a, b):
-            terms += [turn * each for each in two_product(part, c)]
-    result = _sign_of_sum(np.array(terms))
-    size = np.abs([first, second, third])
-    lost = ((size < _SMALL) & (size > 0)).any(axis=(0, 1)) | (result == 2)
-    for k in np.flatnonzero(lost):
+    result = sign_of_sum(np.array(terms_of_determinant(first, second, third)))
+    for k in np.flatnonzero(loses_digits(first, second, third) | (result == 2)):
         result[k] = _rational(*(vector[:, k].tolist() for vector in (first, second, third)))
     return result
+
+
+def terms_of_determinant(first: Floats, second: Floats, third: Floats, turn: float = 1.0) -> list[Floats]:
+    """24 arrays with the exact sum turn · det(first, second, third); turn: ±1. See `loses_digits` for the exception."""
+    terms = []
+    for order, sign in (*((each, turn) for each in _EVEN), *((each, -turn) for each in _ODD)):
+        a, b, c = (vector[row] for vector, row in zip((first, second, third), order, strict=True))
+        for part in two_product(a, b):
+            terms += [sign * each for each in two_product(part, c)]
+    return terms
+
+
+def loses_digits(*vectors: Floats) -> Mask:
+    """(n,) flags: a component is so small that its products lose digits to the end of the range of doubles."""
+    size = np.abs(vectors)
+    return np.asarray(((size < _SMALL) & (size > 0)).any(axis=(0, 1)))
 
 
 def _rational(*rows: list[float]) -> int:
@@ -104,7 +113,7 @@ def _rational(*rows: list[float]) -> int:
     return (total > 0) - (total < 0)
 
 
-def _sign_of_sum(terms: Floats) -> Sign:
+def sign_of_sum(terms: Floats) -> Sign:
     """(n,) signs of the exact sums of terms (m, n); 2 where undecided.
 
     Each pass replaces the terms by others of the same sum: the last by the rounded sum, the others by rounding errors.

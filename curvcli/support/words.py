@@ -160,3 +160,8 @@ def format_number(value: float) -> str:
     """The shortest decimal text that reads back as the same number, without a trailing `.0`."""
     text = f"{value:.15g}"
     return text if float(text) == value else repr(value)
+
+
+def format_point(point: Iterable[float], digits: int = 6) -> str:
+    """Coordinates for people: `(0.5, 1, 2)`."""
+    return f"({', '.join(format_rounded(value, digits) for value in point)})"

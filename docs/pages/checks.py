@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from curvcli.checks.base import CheckRule
 from curvcli.checks.catalogue import identities
-from curvcli.checks.requirements.catalogue import requirements
+from curvcli.checks.requirements.catalogue import SETS, requirements
 from curvcli.curvatures.catalogue import load_passes
 
 _INTRODUCTION = """\
@@ -48,6 +48,33 @@ the largest |H_p + H A_p|/A_p does not tend to 0, however fine they are, while H
 evolved by a soap film solver pass. `minimal` covers lines where three films meet. Rounding of a star counts as 0; a
 vertex without a value fails the requirement."""
 
+_EMBEDDED = """
+## Self-intersections
+
+Two faces are in contact if they meet outside the corners and the edge that they share. `curvcli analyze MESH --table
+intersections=PATH` lists all pairs with the kind of contact and a point of it:
+
+| kind | meaning | fails |
+|---|---|---|
+| `crossing` | the faces meet along a segment, each on both sides of the other's plane | both requirements |
+| `overlapping` | the faces lie in one plane and have an area in common | both requirements |
+| `folded` | neighbours that lie in one plane on the same side of their common edge | both requirements |
+| `touching` | every other contact, such as a corner on a face or an edge on an edge | `no-self-contacts` |
+
+The decision is exact for the coordinates as they are stored: a floating-point filter decides most pairs, error-free
+sums decide the others (Shewchuk 1997), and the test of two triangles is that of Guigue and Devillers (2003). A tree of
+bounding boxes proposes the pairs. Corners at one position count as one, so that seams are no contacts. Faces without
+area and faces with the same corners are left out, because `no-degenerate` and `no-duplicate-faces` report them.
+Bodies that only touch in the exact model may cross by the rounding of their coordinates; the test says so.
+"""
+
+_SETS = """
+Sets stand for several requirements; `--allow` exempts a mesh from a member. A configuration or `--sets` defines others:
+
+| set | members |
+|---|---|
+"""
+
 _ELSEWHERE = r"""
 ## Of curves and of maps
 
@@ -85,7 +112,9 @@ def page() -> str:
         f"| `{each.usage}`{' *' if each.default else ''} | {_cell(each.statement)} | {_cell(each.remedy)} |"
         for each in requirements().values()
     ]
-    return "\n".join([*parts, _REQUIREMENTS + "\n".join(rows), _CRITICAL, _ELSEWHERE])
+    sets = [f"| `{name}` | {', '.join(f'`{member}`' for member in members)} |" for name, members in SETS.items()]
+    required = [_REQUIREMENTS + "\n".join(rows), _SETS + "\n".join(sets), _CRITICAL]
+    return "\n".join([*parts, *required, _EMBEDDED, _ELSEWHERE])
 
 
 def _identity(rule: CheckRule) -> str:

@@ -26,12 +26,19 @@ _KEYS = {
         ("c", "third corner"),
     ),
 }
+_INTERSECTIONS = (
+    ("intersection", "index of the pair, in the order of its faces"),
+    ("kind", "`crossing`, `overlapping`, `folded` or `touching`, as on [the page of checks](checks.md)"),
+    ("face_a`, `face_b", "the two faces of the file"),
+    ("component_a`, `component_b", "their components"),
+    ("x`, `y`, `z", "a point of contact"),
+)
 _ELEMENTS: dict[str, Element] = {"edges": "edge", "faces": "face"}
 _REGION = ("region", "the label of the face's region, with `--regions` only")
 
 
 def page_part() -> str:
-    """Columns of the tables of edges and faces with definitions, of the others by the keys of the report."""
+    """Columns of the tables, some with definitions, the others by the keys of the report."""
     load_passes()
     parts = []
     for kind, keys in _KEYS.items():
@@ -44,7 +51,9 @@ def page_part() -> str:
         names = ", ".join(f"`{name}`" for name in TABLES[kind](example))
         parts += [f"### {kind}\n", f"{names}\n"]
     parts += ["`region` is the label, as in the table of faces. `name` is its key in the report.\n"]
-    return "\n".join(parts)
+    parts += ["### intersections\n", "| column | definition |", "|---|---|"]
+    parts += [f"| `{name}` | {text} |" for name, text in _INTERSECTIONS]
+    return "\n".join([*parts, ""])
 
 
 def _quantities(element: Element) -> list[tuple[str, str]]:

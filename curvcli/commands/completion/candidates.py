@@ -54,9 +54,9 @@ def _columns() -> list[str]:
 
 
 def _requirements() -> list[str]:
-    from ...checks.requirements.catalogue import requirements
+    from ...checks.requirements.catalogue import SETS, requirements
 
-    return [f"{each.name}=" if each.number else each.name for each in requirements().values()]
+    return [*(f"{each.name}=" if each.number else each.name for each in requirements().values()), *SETS]
 
 
 def _allowed() -> list[str]:

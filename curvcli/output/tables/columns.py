@@ -127,6 +127,23 @@ def loop_table(analysis: Result) -> Table:
     return loops(analysis.surface)
 
 
+def intersection_table(analysis: Result) -> Table:
+    """One row per pair of faces in contact beyond their common corners and edges: kind, faces, components, a point."""
+    from ...mesh.intersections.pairs import KINDS
+    from ...mesh.intersections.search import face_contacts
+
+    surface = analysis.surface
+    contacts = face_contacts(surface)
+    table: Table = {
+        "intersection": np.arange(len(contacts.kind), dtype=np.int32),
+        "kind": Labels(contacts.kind.astype(np.int32), KINDS),
+    }
+    for side, faces in (("a", contacts.one), ("b", contacts.other)):
+        table[f"face_{side}"] = faces if surface.polygon is None else surface.polygon[faces]
+        table[f"component_{side}"] = surface.components.face[faces]
+    return table | dict(zip("xyz", contacts.points(surface).T, strict=True))
+
+
 def _piece_columns(pieces: list[Piece]) -> Table:
     """Values of pieces under the last part of the report's keys; columns and types follow from the computed values."""
     import msgspec
@@ -183,4 +200,5 @@ TABLES: dict[str, Callable[[Result], Table]] = {
     "loops": loop_table,
     "regions": region_table,
     "components": component_table,
+    "intersections": intersection_table,
 }

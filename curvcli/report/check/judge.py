@@ -10,7 +10,7 @@ from ...analysis.result import Result
 from ...checks.base import Check
 from ...checks.catalogue import identities
 from ...checks.requirements.base import Required
-from ...checks.requirements.catalogue import defaults, parse, requirements
+from ...checks.requirements.catalogue import defaults, parse, parse_sets, requirements
 from ...checks.requirements.topology import manifold
 from ...curvatures.catalogue import load_passes
 from ...curvatures.engine import evaluate
@@ -59,11 +59,13 @@ def plan(
     asserted: Iterable[str] = (),
     scales: tuple[Scale, ...] = (),
     regions: bool = False,
+    sets: Iterable[str] = (),
 ) -> Plan:
     """All identities and the default requirements, plus `require` and `asserted`, without those in `allow`.
 
     require, allow: names or comma lists of names. asserted: `STAT(COLUMN) OP NUMBER`. scales: at which estimates are
-    made; of several, each has columns of its own. regions: the meshes are divided into regions.
+    made; of several, each has columns of its own. regions: the meshes are divided into regions. sets: of requirements,
+    `NAME=REQUIREMENT,…`, beside the built-in ones.
     Errors: UsageError for an unknown name, with the nearest.
     """
     load_passes()  # plug-ins may bring identities of their own
@@ -72,7 +74,7 @@ def plan(
     for name in sorted(allowed.difference(known)):
         way_out = suggestion(name, known, "`curvcli help checks` lists them")
         raise UsageError(f"cannot allow {name!r}: no such requirement or identity{way_out}")
-    wanted = parse([*defaults(), *require])
+    wanted = parse([*defaults(), *require], parse_sets(sets))
     return Plan(
         tuple(name for name, rule in identities().items() if name not in allowed and (regions or not rule.of_shares)),
         tuple(required for required in wanted if required.requirement.name not in allowed),

@@ -1,0 +1,59 @@
+"""Requirements of embedding: no two faces cross, overlap, fold over or touch."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...mesh.intersections.pairs import CROSSING, FOLDED, OVERLAPPING, TOUCHING
+from ...mesh.intersections.search import FaceContacts, face_contacts
+from ...mesh.surface import Surface
+from ...support.words import counted, format_point
+from .base import requirement
+from .wording import face_name, join_problems
+
+# Pairs named with their place.
+_FIRST = 3
+
+
+@requirement(
+    "no-self-intersections",
+    remedy="`--table intersections=PATH` of `curvcli analyze` lists the pairs; unite or part the bodies there, and "
+    "remesh faces that fold over",
+)
+def no_self_intersections(surface: Surface) -> str:
+    """No two faces cross, overlap in one plane or fold over, decided exactly; faces that only touch may stay."""
+    contacts = face_contacts(surface)
+    return join_problems(
+        _listed(surface, contacts, CROSSING, "pair of faces crosses", "pairs of faces cross"),
+        _listed(
+            surface, contacts, OVERLAPPING, "pair of faces overlaps in its plane", "pairs of faces overlap in a plane"
+        ),
+        _listed(surface, contacts, FOLDED, "pair of neighbours is folded over", "pairs of neighbours are folded over"),
+    )
+
+
+@requirement(
+    "no-self-contacts",
+    remedy="`--table intersections=PATH` of `curvcli analyze` lists the pairs; move them apart, or give the faces "
+    "common corners",
+)
+def no_self_contacts(surface: Surface) -> str:
+    """No two faces meet outside the corners and edges that they share: the surface is embedded."""
+    return join_problems(
+        no_self_intersections(surface),
+        _listed(surface, face_contacts(surface), TOUCHING, "pair of faces touches", "pairs of faces touch"),
+    )
+
+
+def _listed(surface: Surface, contacts: FaceContacts, kind: int, one: str, many: str) -> str:
+    """Number of pairs of a kind of contact, and the first ones with a point of contact; empty for none."""
+    count = int(np.count_nonzero(contacts.kind == kind))
+    if not count:
+        return ""
+    first = contacts.first_of(kind, _FIRST)
+    pairs = [
+        f"{face_name(surface, face)} and {face_name(surface, other)} at {format_point(point)}"
+        for face, other, point in zip(first.one, first.other, first.points(surface), strict=True)
+    ]
+    more = [] if count == len(pairs) else ["…"]
+    return f"{counted(count, one, many)} ({'; '.join([*pairs, *more])})"

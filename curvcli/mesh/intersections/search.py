@@ -1,0 +1,118 @@
+"""Search for pairs of faces in contact: a tree of boxes proposes them, exact predicates decide."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...support.arrays import Floats, Ints, Mask, Sign
+from ...support.blocks import map_pieces
+from ...support.cache import cached
+from ..counts import duplicate_vertices
+from ..solids.boxes import BoxTree
+from ..surface import Surface
+from ..welding import weld_exact
+from .pairs import APART, contacts
+from .places import contact_points, corners_of
+from .predicates import orient2d
+
+
+class FaceContacts(NamedTuple):
+    """Pairs of faces in contact beyond the corners and the edge that they share, sorted by face.
+
+    one, other: (n,) faces, one < other. kind: (n,) index into `pairs.KINDS`.
+    """
+
+    one: Ints
+    other: Ints
+    kind: Sign
+
+    def points(self, surface: Surface) -> Floats:
+        """(n, 3) a point of contact of each pair, in the unit of the file."""
+        places = contact_points(*(corners_of(surface.xyz, surface.faces[faces]) for faces in (self.one, self.other)))
+        return surface.in_file_unit(places, 1).T
+
+    def first_of(self, kind: int, most: int) -> FaceContacts:
+        """The first contacts of a kind."""
+        rows = np.flatnonzero(self.kind == kind)[:most]
+        return FaceContacts(self.one[rows], self.other[rows], self.kind[rows])
+
+
+@cached
+def face_contacts(surface: Surface) -> FaceContacts:
+    """Pairs of faces that cross, overlap, fold over or touch, each once.
+
+    Corners at one position count as one, so that seams are no contacts. Faces without area and pairs of faces with the
+    same corners are left out: the counts of degenerate and of duplicate faces have them.
+    Time and memory: O(F log F + pairs of boxes that meet).
+    """
+    corners = _corners(surface)
+    low, high = np.empty((3, surface.n_faces)), np.empty((3, surface.n_faces))
+    for axis, x in enumerate(surface.xyz):
+        a, b, c = (x.take(corner) for corner in corners)
+        np.minimum(np.minimum(a, b), c, out=low[axis])
+        np.maximum(np.maximum(a, b), c, out=high[axis])
+    whole, nothing = np.zeros(1, np.int64), np.zeros(0, np.int64)
+    tree = BoxTree(low, high, np.zeros(surface.n_faces, np.int64), 1)
+
+    def decide(candidates: tuple[Ints, Ints, Ints]) -> FaceContacts:
+        return _decide(surface.xyz, corners, candidates[1], candidates[2])
+
+    decided = [FaceContacts(nothing, nothing, nothing.astype(np.int8)), *map_pieces(tree.meeting(whole, whole), decide)]
+    one, other, kind = (np.concatenate(part) for part in zip(*decided, strict=True))
+    one, other = np.minimum(one, other), np.maximum(one, other)
+    order = np.lexsort((other, one))
+    return FaceContacts(one[order], other[order], kind[order])
+
+
+def _corners(surface: Surface) -> NDArray[np.intp]:
+    """(3, F) corners; vertices at one position have the number of the first."""
+    faces = surface.faces.T
+    again = duplicate_vertices(surface)
+    if len(again):
+        first, into = weld_exact(surface.xyz_given)
+        faces = first[into][faces]
+    return np.ascontiguousarray(faces, np.intp)
+
+
+def _decide(xyz: Floats, corners: NDArray[np.intp], one: Ints, other: Ints) -> FaceContacts:
+    """The contacts among some pairs of faces."""
+    ends, others = corners.take(one, axis=1), corners.take(other, axis=1)
+    code = np.zeros(len(one), np.intp)
+    for bit, (a, b) in enumerate((a, b) for a in ends for b in others):
+        code |= (a == b).astype(np.intp) << bit
+    rows = np.flatnonzero(_SHARED.take(code) < 3)
+    code = code[rows]
+    p, q = (
+        np.stack([xyz.take(each[order.take(code), rows], axis=1) for order in orders])
+        for each, orders in ((ends, _ORDERS[0]), (others, _ORDERS[1]))
+    )
+    kind = contacts(p, q, _SHARED.take(code))
+    meet = np.flatnonzero(kind != APART)
+    meet = meet[_have_area(p[..., meet]) & _have_area(q[..., meet])]
+    return FaceContacts(one[rows[meet]], other[rows[meet]], kind[meet])
+
+
+def _orders() -> tuple[Ints, Ints, Ints]:
+    """By the nine bits that say which corners are equal: the number of shared corners, and for each of the two faces
+    (3, 512) its corners, the shared ones first, in the order of the first face."""
+    shared, orders = np.zeros(512, np.int64), np.zeros((2, 3, 512), np.int64)
+    for code in range(512):
+        pairs = [(bit // 3, bit % 3) for bit in range(9) if code >> bit & 1]
+        shared[code] = len(pairs)
+        for face in (0, 1):
+            first = [pair[face] for pair in pairs][:3]
+            orders[face, :, code] = [*first, *(k for k in range(3) if k not in first)][:3]
+    return shared, orders[0], orders[1]
+
+
+_SHARED, *_ORDERS = _orders()
+
+
+def _have_area(corners: Floats) -> Mask:
+    """(n,) flags: the corners are not collinear, exactly."""
+    planes = (corners[:, [axis, (axis + 1) % 3]] for axis in range(3))
+    area: Mask = np.logical_or.reduce([orient2d(plane[0], plane[1], plane[2]) != 0 for plane in planes])
+    return area
