@@ -62,10 +62,11 @@ class _Requirements(click.Option):
 @click.option(
     "--assert",
     "asserted",
-    metavar="'STAT(COLUMN) OP NUMBER'",
+    metavar="'[SCOPE:] STAT(COLUMN) OP NUMBER'",
     multiple=True,
-    help="Compare a column's min, max, absmax, mean, area_mean, sum, p02 or p98 by < <= > >= == or != with a number; "
-    "repeatable.",
+    help="Compare a column's min, max, absmax, mean, area_mean, std, sum, median, p02 or another statistic of --stat, "
+    "by < <= > >= == or != with a number; or a total, a count or an extent: 'volume >= 100', 'extent_x <= 250'. SCOPE "
+    "is `region(LABEL)`, `each region` or `each component`; repeatable.",
 )
 @options.regions
 @options.reading

@@ -36,6 +36,13 @@ class Segments:
         order, start, _ = self._runs
         return order[start[0] :]
 
+    def members_of(self, group: int) -> NDArray[np.int64]:
+        """Members of one group, in ascending order."""
+        if self.label is None:
+            return np.arange(self.size)
+        order, start, per_group = self._runs
+        return order[start[group] : start[group] + per_group[group]]
+
     def members(self) -> NDArray[np.int64]:
         """Number of members of each group."""
         return np.array([self.size]) if self.label is None else self._runs[2]

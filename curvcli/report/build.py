@@ -74,7 +74,7 @@ def model(analysis: Result) -> Report:
 
 def pieces(analysis: Result, groups: Groups, columns: Sequence[dict[str, Statistics]] | None = None) -> list[Piece]:
     """Topology, totals and further values of each group of a surface. columns: the statistics of each group."""
-    counts = _counts(analysis, groups)
+    counts = topology_of(analysis, groups)
     totals = {key: _json_list(values) for key, values in analysis.totals_of(groups).items()}
     extras = _extras(analysis, groups)
     return [
@@ -175,7 +175,7 @@ def _extras(analysis: Result, groups: Groups) -> dict[str, Callable[[int], Any]]
     return extras
 
 
-def _counts(analysis: Result, groups: Groups) -> dict[str, list[Any]]:
+def topology_of(analysis: Result, groups: Groups) -> dict[str, list[Any]]:
     """The columns of the topology table, one entry per group."""
     surface = analysis.surface
     kinds = classify(surface, groups)

@@ -1,4 +1,4 @@
-"""Assertions on a column: `absmax(h_signed) <= 50`."""
+"""Assertions: `absmax(h_signed) <= 50`, `each region: area_mean(K_density) > 0`, `volume >= 100`."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import operator
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...analysis.result import Result
+from ...analysis.result import LISTED_GROUPS, Result
+from ...analysis.statistics import STATISTICS, is_statistic
 from ...curvatures.catalogue import at_scales
 from ...curvatures.quantity import AT_SCALE, Quantity
 from ...curvatures.registry import passes
@@ -20,11 +20,10 @@ from ...errors import UsageError
 from ...mesh.scale import EstimatorSettings, Scale
 from ...support.words import format_number, format_rounded, suggestion
 from ..quantities import public
-from ..statistics import statistics
+from .measured import Measured, StatisticOfColumn, values_of_parts
+from .scopes import AssertedScope, Part, parse_scope
 
-STATISTICS = ("min", "max", "absmax", "mean", "area_mean", "sum", "p02", "p98")
-
-OPERATORS: dict[str, Callable[[float, float], bool]] = {
+OPERATORS: dict[str, Callable[[Any, float], Any]] = {
     "<=": operator.le,
     ">=": operator.ge,
     "==": operator.eq,
@@ -33,75 +32,63 @@ OPERATORS: dict[str, Callable[[float, float], bool]] = {
     ">": operator.gt,
 }
 
-_SHAPE = re.compile(r"\s*(\w+)\s*\(\s*(\w+)\s*\)\s*([<>=!]+)\s*([^\s<>=!]+)\s*", re.ASCII)
+_SHAPE = re.compile(r"\s*(?:([\w.]+)\s*\(\s*(\w+)\s*\)|([A-Za-z_]\w*))\s*([<>=!]+)\s*([^\s<>=!]+)\s*", re.ASCII)
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
-_PLURALS = {"vertex": "vertices", "edge": "edges", "face": "faces"}
+
+class AssertionVerdict(NamedTuple):
+    """Verdict of an assertion on one group.
+
+    held: True if it holds. value: the number compared, None where undefined. message: with both, and the place.
+    """
+
+    held: bool
+    value: float | None
+    message: str
+    scope: str = "whole"
 
 
 @dataclass(frozen=True)
 class Assertion:
-    """A statistic of one scalar column, compared with a number; nulls are left out of the statistic."""
+    """A number of the whole, of regions or of components, compared with a bound."""
 
-    statistic: str
-    quantity: Quantity
-    column: str
+    scope: AssertedScope
+    measured: Measured
     comparison: str
     bound: float
 
     @property
     def name(self) -> str:
         """Text of the assertion as after --assert."""
-        return f"{self.statistic}({self.column}) {self.comparison} {format_number(self.bound)}"
+        return f"{self.scope.prefix}{self.measured.call} {self.comparison} {format_number(self.bound)}"
 
-    def judge(self, analysis: Result) -> tuple[bool, float | None, str]:
-        """True if it holds, the statistic's value (None where undefined), and a message with both."""
-        values, area, used = self._values(analysis)
-        value = self._value(values, area, used)
-        call = f"{self.statistic}({self.column})"
-        if value is None:
-            known = used & ~np.isnan(values)
-            some = f"it is beyond the range of doubles, or its {_PLURALS[self.quantity.on]} have no area"
-            none = f"no {self.quantity.on} has a value"
-            return False, None, f"{call} is undefined: {some if known.any() else none}"
-        held = OPERATORS[self.comparison](value, self.bound)
-        return held, value, f"{call} = {format_rounded(value)}{self._place(analysis, values, used)}"
+    def judge(self, analysis: Result, parts: dict[str, Part] | None = None) -> list[AssertionVerdict]:
+        """Verdict on each group; of very many groups, those that fail and one for the others.
 
-    def _values(self, analysis: Result) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-        """Values of the column, weights for area_mean, and the elements that count."""
-        surface = analysis.surface
-        shown = analysis.shown(self.quantity.name)
-        if self.quantity.vector:
-            shown = shown[:, "xyz".index(self.column[-1])]
-        values = shown.astype(np.float64)
-        if self.quantity.on == "vertex":
-            return values, analysis.columns["star_area"], surface.referenced
-        area = analysis.shown("area_of_face") if self.quantity.on == "face" else np.ones(len(values))
-        return values, area, np.ones(len(values), bool)
+        parts: the statistics of earlier assertions, by kind of scope.
+        Errors: LackingError for a region that the mesh has not; UsageError for a value that is not computed.
+        """
+        known = {} if parts is None else parts
+        part = known.setdefault(self.scope.kind, Part(analysis, self.scope.kind))
+        chosen = self.scope.chosen(part)
+        values = self.measured.values(part)[chosen]
+        with np.errstate(invalid="ignore"):
+            held = OPERATORS[self.comparison](values, self.bound) & ~np.isnan(values)
+        if len(chosen) <= LISTED_GROUPS:
+            return [self._verdict(part, chosen[k], values[k], held[k]) for k in range(len(chosen))]
+        verdicts = [self._verdict(part, chosen[k], values[k], False) for k in np.flatnonzero(~held)]
+        if held.any():
+            low, high = (format_rounded(float(x)) for x in (values[held].min(), values[held].max()))
+            message = f"{self.measured.call} is between {low} and {high} on {int(held.sum()):,} {self.scope.kind}s"
+            verdicts.append(AssertionVerdict(True, None, message, f"{self.scope.kind}s"))
+        return verdicts
 
-    def _value(self, values: NDArray[np.float64], area: NDArray[np.float64], used: NDArray[np.bool_]) -> float | None:
-        summary = statistics(self.quantity, values, area, used, "")
-        value: float | None
-        if self.statistic == "sum":
-            known = values[used & ~np.isnan(values)]
-            with np.errstate(over="ignore", invalid="ignore"):
-                value = float(known.sum()) if len(known) else None
-        elif self.statistic == "absmax":
-            value = None if summary.min is None or summary.max is None else max(-summary.min, summary.max)
-        else:
-            value = getattr(summary, self.statistic)
-        return value if value is not None and math.isfinite(value) else None
-
-    def _place(self, analysis: Result, values: NDArray[np.float64], used: NDArray[np.bool_]) -> str:
-        """Place of the extreme value."""
-        if self.statistic not in ("min", "max", "absmax"):
-            return ""
-        shown = np.abs(values) if self.statistic == "absmax" else values
-        shown = np.where(used, shown, np.nan)
-        where = int(np.nanargmin(shown) if self.statistic == "min" else np.nanargmax(shown))
-        edges = analysis.surface.edges
-        name = f"{edges.a[where]}-{edges.b[where]}" if self.quantity.on == "edge" else str(where)
-        return f" at {self.quantity.on} {name}"
+    def _verdict(self, part: Part, group: int, value: float, held: bool) -> AssertionVerdict:
+        scope, call = part.groups.scope(group), self.measured.call
+        if np.isnan(value):
+            return AssertionVerdict(False, None, f"{call} is undefined: {self.measured.undefined(part, group)}", scope)
+        message = f"{call} = {format_rounded(float(value))}{self.measured.place(part, group)}"
+        return AssertionVerdict(bool(held), float(value), message, scope)
 
 
 def columns(scales: tuple[Scale, ...] = ()) -> dict[str, Quantity]:
@@ -121,24 +108,54 @@ def _at(scales: tuple[Scale, ...]) -> list[Quantity]:
     return [passes.quantity(name) for name in at_scales((q.name for q in public()), EstimatorSettings(scales))]
 
 
-def parse(text: str, scales: tuple[Scale, ...] = ()) -> Assertion:
-    """An assertion from `STAT(COLUMN) OP NUMBER`.
+def parse(text: str, scales: tuple[Scale, ...] = (), regions: bool = True) -> Assertion:
+    """An assertion from `[SCOPE:] STAT(COLUMN) OP NUMBER` or `[SCOPE:] VALUE OP NUMBER`.
 
-    Errors: UsageError that names the invalid part, with the nearest names.
+    regions: the mesh is divided into regions. Errors: UsageError that names the invalid part, with the nearest names.
     """
-    match = _SHAPE.fullmatch(text)
+    try:
+        return _parse(text, scales, regions)
+    except UsageError as error:
+        if str(error).startswith("assertion "):
+            raise
+        raise UsageError(f"assertion {text!r}: {error}") from None
+
+
+def _parse(text: str, scales: tuple[Scale, ...], regions: bool) -> Assertion:
+    scope, rest = parse_scope(text)
+    if scope.kind == "region" and not regions:
+        raise UsageError(f"assertion {text!r}: there are no regions without --regions")
+    match = _SHAPE.fullmatch(rest)
     if match is None:
-        raise UsageError(f"assertion {text!r}: expected STAT(COLUMN) OP NUMBER, such as 'absmax(h_signed) <= 50'")
-    statistic, column, comparison, bound = match.groups()
-    _known(text, "statistic", statistic, STATISTICS)
+        raise UsageError(
+            f"assertion {text!r}: expected STAT(COLUMN) OP NUMBER, such as 'absmax(h_signed) <= 50', or VALUE OP "
+            "NUMBER, such as 'volume >= 100'"
+        )
+    statistic, column, value, comparison, bound = match.groups()
     if comparison not in OPERATORS:
         raise UsageError(f"assertion {text!r}: no comparison {comparison!r}, expected one of {' '.join(OPERATORS)}")
     if not _NUMBER.fullmatch(bound) or not math.isfinite(float(bound)):
         raise UsageError(f"assertion {text!r}: {bound!r} is not a number in the range of doubles")
+    measured = _statistic(text, statistic, column, scales) if value is None else _value(text, value, scales, scope)
+    return Assertion(scope, measured, comparison, float(bound))
+
+
+def _statistic(text: str, statistic: str, column: str, scales: tuple[Scale, ...]) -> Measured:
+    if not is_statistic(statistic):
+        names = [*STATISTICS, "pNN", "area_pNN"]
+        _known(text, "statistic", statistic, names, f"known: {', '.join(names)}")
     quantity = _quantity(text, column, scales)
-    if statistic == "area_mean" and quantity.on == "edge":
-        raise UsageError(f"assertion {text!r}: edges have no area to weigh {column} by; use mean")
-    return Assertion(statistic, quantity, column, comparison, float(bound))
+    if statistic.startswith("area_") and quantity.on == "edge":
+        raise UsageError(f"assertion {text!r}: edges have no area to weigh {column} by; use {statistic[5:]}")
+    return StatisticOfColumn(statistic, quantity, column)
+
+
+def _value(text: str, value: str, scales: tuple[Scale, ...], scope: AssertedScope) -> Measured:
+    known = values_of_parts(_at(scales), scope.kind == "region")
+    if value not in known and value in columns(scales):
+        raise UsageError(f"assertion {text!r}: {value} is a column; expected a statistic of it, such as max({value})")
+    _known(text, "value", value, known, "")
+    return known[value]
 
 
 def _quantity(text: str, column: str, scales: tuple[Scale, ...]) -> Quantity:
@@ -153,7 +170,7 @@ def _quantity(text: str, column: str, scales: tuple[Scale, ...]) -> Quantity:
     return known[column]
 
 
-def _known(text: str, what: str, name: str, known: Any) -> None:
+def _known(text: str, what: str, name: str, known: Any, listing: str = "`curvcli passes` lists them") -> None:
     if name not in known:
-        way_out = suggestion(name, known, "`curvcli passes` lists them")
+        way_out = suggestion(name, known, listing) if listing else suggestion(name, known)
         raise UsageError(f"assertion {text!r}: unknown {what} {name!r}{way_out}")

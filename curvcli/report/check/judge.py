@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +22,7 @@ from ..model import CONVENTIONS
 from . import assertions
 from .assertions import Assertion
 from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, Outcome, Rule
+from .scopes import Part
 
 READABLE = "The mesh can be read and is a surface"
 
@@ -36,8 +37,8 @@ class Plan:
 
     @property
     def passes(self) -> list[str]:
-        """The vertex columns that the assertions name."""
-        return [assertion.quantity.name for assertion in self.assertions if assertion.quantity.on == "vertex"]
+        """The columns that the assertions need."""
+        return [name for assertion in self.assertions for name in assertion.measured.passes]
 
     @property
     def rules(self) -> list[Rule]:
@@ -78,7 +79,7 @@ def plan(
     return Plan(
         tuple(name for name, rule in identities().items() if name not in allowed and (regions or not rule.of_shares)),
         tuple(required for required in wanted if required.requirement.name not in allowed),
-        tuple(dict.fromkeys(assertions.parse(text, scales) for text in asserted)),
+        tuple(dict.fromkeys(assertions.parse(text, scales, regions) for text in asserted)),
     )
 
 
@@ -89,7 +90,7 @@ def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
     outcomes = [
         *(_of_identity(check, flaw) for check in analysis.checks),
         *(_of_requirement(requirement, analysis, given) for requirement in chosen.requirements),
-        *(_of_assertion(assertion, analysis) for assertion in chosen.assertions),
+        *_of_assertions(chosen.assertions, analysis),
     ]
     failed = any(outcome.status == FAIL for outcome in outcomes)
     file, conventions = analysis.surface.file, analysis.conventions
@@ -156,6 +157,10 @@ def _of_requirement(required: Required, analysis: Result, given: Mapping[str, An
     )
 
 
-def _of_assertion(assertion: Assertion, analysis: Result) -> Outcome:
-    held, value, message = assertion.judge(analysis)
-    return Outcome(assertion.name, ASSERTION, "whole", PASS if held else FAIL, message, value, assertion.bound)
+def _of_assertions(chosen: Iterable[Assertion], analysis: Result) -> Iterator[Outcome]:
+    """Outcomes of every assertion on the whole, or on each of its regions or components."""
+    parts: dict[str, Part] = {}
+    for assertion in chosen:
+        for verdict in assertion.judge(analysis, parts):
+            status, scope = PASS if verdict.held else FAIL, escape_text(verdict.scope)
+            yield Outcome(assertion.name, ASSERTION, scope, status, verdict.message, verdict.value, assertion.bound)

@@ -7,7 +7,7 @@ import pytest
 
 from curvcli.api import analyze
 from curvcli.errors import UsageError
-from curvcli.report.check.assertions import OPERATORS, STATISTICS, columns, parse
+from curvcli.report.check.assertions import OPERATORS, columns, parse
 from tests.helpers import meshes
 from tests.helpers.gates import judged, outcome
 
@@ -38,12 +38,17 @@ def test_a_statistic_is_taken_of_defined_values(column: str) -> None:
         "sum": given.sum(),
         "p02": np.quantile(given, 0.02),
         "p98": np.quantile(given, 0.98),
+        "median": np.median(given),
+        "std": given.std(),
+        "p97.5": np.quantile(given, 0.975),
+        "count": len(given),
+        "nulls": len(values) - len(given),
     }
     if area is not None:
         expected["area_mean"] = (given * area[known]).sum() / area[known].sum()
-    assert expected.keys() | {"area_mean"} == set(STATISTICS)
+        expected["area_p10"] = np.quantile(given, 0.1, weights=area[known], method="inverted_cdf")
     for statistic, value in expected.items():
-        held, found, _ = parse(f"{statistic}({column}) <= 0").judge(analysis)
+        ((held, found, _, _),) = parse(f"{statistic}({column}) <= 0").judge(analysis)
         assert found == pytest.approx(value, rel=1e-12, abs=1e-15)
         assert held == (found <= 0)
 
@@ -54,7 +59,7 @@ def test_comparisons_are_exact_at_the_bound(operator: str) -> None:
     body = meshes.tetrahedron()
     analysis = analyze((body.points, body.faces), "topology")
     for bound in (2, 3, 4):
-        held, value, _ = parse(f"max( degree ){operator}{bound}").judge(analysis)
+        ((held, value, _, _),) = parse(f"max( degree ){operator}{bound}").judge(analysis)
         assert value == 3.0
         expected = {2: (">", ">=", "!="), 3: ("<=", ">=", "=="), 4: ("<", "<=", "!=")}
         assert held == (operator in expected[bound])
@@ -103,7 +108,7 @@ def test_every_number_of_a_table_can_be_asserted() -> None:
     known = 0
     for column, quantity in columns().items():
         if not quantity.labels:
-            held, value, words = parse(f"min({column}) < 0").judge(analysis)
+            ((held, value, words, _),) = parse(f"min({column}) < 0").judge(analysis)
             assert held == (value is not None and value < 0)
             assert words.startswith(f"min({column}) {'is undefined' if value is None else '= '}")
             known += value is not None
@@ -118,7 +123,7 @@ def test_every_number_of_a_table_can_be_asserted() -> None:
         ("max(K) < 3; exit()", "expected STAT(COLUMN) OP NUMBER"),
         ("max(K).real < 3", "expected STAT(COLUMN) OP NUMBER"),
         ("__import__('os') < 3", "expected STAT(COLUMN) OP NUMBER"),
-        ("maks(K) < 3", "known: min, max, absmax"),
+        ("maks(K) < 3", "known: count, nulls, min, max"),
         ("max(h_sgned) < 3", "nearest: h_signed"),
         ("max(K) = 3", "expected one of <="),
         ("max(K) =< 3", "expected one of <="),
@@ -131,6 +136,15 @@ def test_every_number_of_a_table_can_be_asserted() -> None:
         ("max(H_vec) < 3", "H_vec_x, H_vec_y, H_vec_z"),
         ("max(status) < 3", "has words"),
         ("area_mean(theta) < 3", "use mean"),
+        ("p101(K) < 3", "unknown statistic 'p101'"),
+        ("volum >= 3", "nearest: volume"),
+        ("h_signed >= 3", "h_signed is a column"),
+        ("closed == 1", "unknown value 'closed'"),
+        ("each regoin: max(K) < 3", "expected one of each region, each component"),
+        ("every region: max(K) < 3", "expected one of each region, each component"),
+        ("each region max(K) < 3", "expected STAT(COLUMN) OP NUMBER"),
+        ("region(): max(K) < 3", "expected one of each region, each component"),
+        ("each component: share_area < 3", "unknown value 'share_area'"),
     ],
 )
 def test_what_is_no_assertion(text: str, words: str) -> None:
