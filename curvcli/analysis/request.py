@@ -175,7 +175,7 @@ class Request:
             self.area,
             surface.orient,
             surface.file.weld if surface.file else "none",
-            self.unit,
+            self.unit or (surface.file.unit if surface.file else None),
             labels if labels is None or isinstance(labels, str) else "array",
             ",".join(scale.name for scale in settings.scales) if scaled else None,
             settings.normals if "normals" in used else None,

@@ -87,7 +87,14 @@ class Result:
         self.cut: Result | None = None
         if regions is not None:
             cut, self.cut_groups = cut_along_regions(surface, regions)
-            alone = replace(request, regions=None, parameters=None, passes=tuple(self.chosen), besides=())
+            alone = replace(
+                request,
+                unit=self.conventions.unit,
+                regions=None,
+                parameters=None,
+                passes=tuple(self.chosen),
+                besides=(),
+            )
             names = [rule.name for rule in self._rules if not rule.of_shares]
             self.cut = Result(cut, alone, checks=names, settings=on_faces(self.settings, regions.face >= 0))
 

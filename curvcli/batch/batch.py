@@ -5,7 +5,7 @@ from __future__ import annotations
 import glob
 import hashlib
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -17,7 +17,8 @@ from ..errors import FAILED_CHECK, INTERNAL, OK, OUTPUT
 from ..support.words import escape_text
 from .locations import hash_of, is_url, length_of, read_url
 from .manifest import Manifest
-from .model import BatchItem, BatchSettings, Engine, Row
+from .model import STATISTICS, BatchItem, BatchSettings, Engine, Row
+from .statistics import write_statistics
 from .summary import write_summary
 
 _WRITTEN = ("ok", "failed_checks")
@@ -72,6 +73,10 @@ class Batch:
         ended = self._kept | self.manifest.added()
         self.rows = [ended[item.path] for item in self.items if item.path in ended]
         write_summary(self.folder, self.rows)
+        if self.settings.long:
+            write_statistics(self.folder, self.rows)
+        else:
+            _remove(os.path.join(self.folder, name) for name in STATISTICS)
 
     def _done(self, item: BatchItem) -> Row | None:
         """Row of an earlier run if nothing has changed; errors that may be temporary are tried again."""
@@ -114,6 +119,10 @@ def _hash(item: BatchItem) -> str | None:
 def _sweep(items: Sequence[BatchItem]) -> None:
     """Remove half-written outputs of a killed run; the lock on the manifest excludes other writers."""
     for folder in {os.path.dirname(path) for item in items for _, path in item.outputs}:
-        for part in glob.glob(os.path.join(glob.escape(folder), ".curvcli-*.part")):
-            with suppress(OSError):
-                os.unlink(part)
+        _remove(glob.glob(os.path.join(glob.escape(folder), ".curvcli-*.part")))
+
+
+def _remove(paths: Iterable[str]) -> None:
+    for path in paths:
+        with suppress(OSError):
+            os.unlink(path)

@@ -14,7 +14,9 @@ from ..analysis.configuration import Configuration
 from ..output.appearance import Appearance
 
 # Files that the batch itself writes into its folder.
-MANIFEST, CSV, PARQUET = OWN = ("manifest.jsonl", "summary.csv", "summary.parquet")
+MANIFEST, CSV, PARQUET = "manifest.jsonl", "summary.csv", "summary.parquet"
+STATISTICS = ("statistics.csv", "statistics.parquet")
+OWN = (MANIFEST, CSV, PARQUET, *STATISTICS)
 
 Status = Literal["ok", "failed_checks", "error", "timeout", "out_of_memory", "crashed"]
 
@@ -35,8 +37,8 @@ class BatchItem(msgspec.Struct, frozen=True):
 class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     """Settings that determine the results and outputs of each mesh.
 
-    command: as typed; pages show it, and nothing else depends on it. configuration: the file that set some of this,
-    as named in reports.
+    long: whether rows have statistics. command: as typed; pages show it, and nothing else depends on it.
+    configuration: the file that set some of this, as named in reports.
     """
 
     passes: tuple[str, ...]
@@ -58,6 +60,7 @@ class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     max_faces: int | None = None
     max_bytes: int | None = None
     appearance: Appearance = Appearance()
+    long: bool = False
     command: str | None = None
     configuration: Configuration | None = None
 
@@ -85,8 +88,18 @@ class Written(msgspec.Struct, frozen=True):
     sha256: str
 
 
+class RowStatistics(msgspec.Struct):
+    """Numbers of the whole surface or of one region of a mesh, by column and statistic."""
+
+    region: str | None
+    columns: dict[str, dict[str, int | float | None]]
+
+
 class Row(msgspec.Struct, kw_only=True):
-    """One line of the manifest: the result of one mesh. The summary leaves out values that differ from run to run."""
+    """One line of the manifest: the result of one mesh. The summary leaves out values that differ from run to run.
+
+    statistics: with --long, the whole and then each region.
+    """
 
     path: str
     sha256: str | None = None
@@ -101,6 +114,7 @@ class Row(msgspec.Struct, kw_only=True):
     topology: dict[str, Any] = {}
     totals: dict[str, Any] = {}
     checks: dict[str, Any] = {}
+    statistics: list[RowStatistics] = []
 
 
 Engine = Callable[[Sequence[BatchItem], BatchSettings], Iterator[Row]]

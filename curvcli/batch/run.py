@@ -23,10 +23,11 @@ from ..output.atomic import Outputs
 from ..output.registry import format_of
 from ..output.write import needs, write_into
 from ..report.build import pieces
+from ..report.entries import entries, measured
 from ..support.memory import is_out_of_memory, trim_heap
 from ..support.words import escape_text
 from .locations import hash_of, is_url, length_of, read_url
-from .model import BatchItem, BatchSettings, Limits, Row, Written
+from .model import BatchItem, BatchSettings, Limits, Row, RowStatistics, Written
 from .outcome import explained
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ def run(item: BatchItem, settings: BatchSettings, limits: Limits) -> tuple[Row, 
     spent = False
     try:
         analysis = _analysed(item, settings)
-        row = _row(item, analysis)
+        row = _row(item, analysis, settings.long)
         _write(analysis, item, settings)
         row.outputs = _written(item)
     except Exception as error:
@@ -126,7 +127,7 @@ def _make(folder: str) -> None:
         raise OutputError(f"{escape_text(folder)}: cannot be made: {error.strerror or error}") from error
 
 
-def _row(item: BatchItem, analysis: Result) -> Row:
+def _row(item: BatchItem, analysis: Result, long: bool) -> Row:
     whole = pieces(analysis, analysis.surface.whole)[0]
     checks: dict[str, Any] = {}
     for check in analysis.checks:
@@ -141,7 +142,17 @@ def _row(item: BatchItem, analysis: Result) -> Row:
         topology=msgspec.to_builtins(whole.topology),
         totals=whole.totals,
         checks=checks,
+        statistics=_statistics(analysis) if long else [],
     )
+
+
+def _statistics(analysis: Result) -> list[RowStatistics]:
+    parts: dict[str | None, RowStatistics] = {}
+    for region, column, statistic, value in entries(measured(analysis)):
+        name = None if region is None else escape_text(region)
+        part = parts.setdefault(name, RowStatistics(name, {}))
+        part.columns.setdefault(column, {})[statistic] = value
+    return list(parts.values())
 
 
 def _hash(item: BatchItem) -> str | None:

@@ -21,7 +21,7 @@ def vector_sum(segments: Segments, vectors: Iterable[Column]) -> Floats:
 
 
 def boundary_segments(groups: Groups, half_edges: Index) -> Segments:
-    """Segments of some half-edges by the groups of their faces."""
+    """Segments of (n,) half-edges by the groups of their faces."""
     label = None if groups.faces.label is None else groups.face[half_edges // 3]
     return Segments(label, groups.count, len(half_edges))
 
@@ -73,6 +73,7 @@ def moments(surface: Surface, sizes: Column) -> Column:
     applies="every surface, orientable or not; not where H_vec is undefined at a corner of a degenerate face",
     bound="(16 + log₂N)ε · Σ over the corners of faces of the extent",
     failure="H_vec of some vertex is wrong, or an edge was taken for boundary that is not.",
+    after="total_absolute_curvature",
 )
 def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> IdentityValues:
     """Σ η|e| over the boundary = Σ H_p: translations change no area; needs no orientation."""
@@ -91,6 +92,7 @@ def force_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_ex
     applies="as force_balance",
     bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base",
     failure="if force_balance passes: values of H_vec stand at the wrong vertices.",
+    after="force_balance",
 )
 def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_extent: Column) -> IdentityValues:
     """Σ m × η|e| over the boundary = Σ p × H_p: rotations change no area; needs no orientation."""
@@ -113,6 +115,7 @@ def torque_balance(surface: Surface, groups: Groups, H_vec: VectorColumn, star_e
     applies="as force_balance",
     bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base",
     failure="if force_balance passes: the area of a face is wrong, or values of H_vec stand at the wrong vertices.",
+    after="torque_balance",
 )
 def position_balance(
     surface: Surface, groups: Groups, H_vec: VectorColumn, face_area: Column, star_extent: Column
@@ -136,6 +139,7 @@ def position_balance(
     applies="orientable surfaces",
     bound="(16 + log₂N)ε · (area + ½Σ|a||b| over the half-edges that do not cancel) + ε · Σ(Σ extents)² over the stars",
     failure="A_vec of some vertex, or the orientation of some face, is wrong.",
+    after="position_balance",
 )
 def vector_area(
     surface: Surface, groups: Groups, A_vec: VectorColumn, face_area: Column, star_extent: Column

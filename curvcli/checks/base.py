@@ -30,8 +30,9 @@ _PARTS = ("value", "expected value", "residual", "tolerance")
 
 @dataclass(frozen=True)
 class Check:
-    """One identity on one scope: `pass`, `fail` or `not_applicable` with the reason in `detail`.
+    """One identity on one scope: its status is `pass`, `fail` or `not_applicable` with the reason in `detail`.
 
+    name: of its function. scope: `whole`, or a component or region with its number or name.
     value, expected: both sides, numbers or vectors. residual: |value − expected|. tolerance: the largest residual that
     rounding can explain.
     """
@@ -72,9 +73,10 @@ class IdentityValues:
 class CheckRule:
     """A registered check: a function of the surface, the groups and the quantities that its parameters name.
 
-    statement: the identity. gap: the residual as failures name it. applies: the condition for a test.
-    bound: the derivation of the tolerance. failure: the meaning of a failure. of_shares: it compares the shares of all
-    regions with the totals of the whole, and runs only where there are regions.
+    needs: the quantities among its parameters. statement: the identity. gap: the residual as failures name it.
+    applies: the condition for a test. bound: the derivation of the tolerance. failure: the meaning of a failure.
+    of_shares: it compares the shares of all regions with the totals of the whole, and runs only where there are
+    regions. after: the check that it follows in the report, "" for the first; None comes last.
     """
 
     name: str
@@ -86,6 +88,7 @@ class CheckRule:
     bound: str = ""
     failure: str = ""
     of_shares: bool = False
+    after: str | None = None
 
     def __reduce__(self) -> tuple[Callable[[str, str], CheckRule], tuple[str, str]]:
         """Pickle a rule by its name."""
@@ -125,7 +128,7 @@ class CheckRule:
         return Check(self.name, scope, "pass", value, expected, residual, tolerance, detail)
 
 
-# By name, in the order of import; `catalogue.identities` gives the order of the report.
+# By name; `catalogue.identities` gives the order of the report.
 registered: dict[str, CheckRule] = {}
 
 
@@ -135,10 +138,12 @@ def _rule_of(module: str, name: str) -> CheckRule:
     return registered[name]
 
 
-def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Callable[..., IdentityValues]], CheckRule]:
+def check(
+    *, gap: str, applies: str, bound: str, failure: str, after: str | None = None
+) -> Callable[[Callable[..., IdentityValues]], CheckRule]:
     """Register a check under its function's name; its parameters after surface and groups are the quantities it needs.
 
-    The keywords are the fields of `CheckRule` for people; the function's docstring is the identity.
+    The keywords are fields of `CheckRule`; the function's docstring is the identity.
     """
 
     def register(function: Callable[..., IdentityValues]) -> CheckRule:
@@ -146,7 +151,7 @@ def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Call
         of_shares = SHARES in parameters
         needs = () if of_shares else parameters
         statement = inspect.cleandoc(function.__doc__ or "")
-        rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure, of_shares)
+        rule = CheckRule(function.__name__, function, needs, statement, gap, applies, bound, failure, of_shares, after)
         registered[rule.name] = rule
         return rule
 
@@ -156,6 +161,7 @@ def check(*, gap: str, applies: str, bound: str, failure: str) -> Callable[[Call
 def rounding(surface: Surface, absolute: Floats) -> Floats:
     """The error bound of a pairwise sum over the mesh: (16 + log₂ N) ε times the sum of the absolute terms.
 
+    absolute: (G,) or (G, 3) sums of the absolute terms of each group; the result has the same shape and unit.
     The underflow of every face is added, which is negligible in the unit of computation.
     """
     lost = surface.n_faces * NO_AREA * 2**16
@@ -163,7 +169,10 @@ def rounding(surface: Surface, absolute: Floats) -> Floats:
 
 
 def exclude_null(outcome: IdentityValues, groups: Groups, surface: Surface, null: Mask, what: str) -> None:
-    """Exclude the groups in which a term of the identity is null at a referenced vertex."""
+    """Exclude the groups in which a term of the identity is null at a referenced vertex.
+
+    null: (V,) mask. what: the name of the term, for the reason.
+    """
     where = np.flatnonzero(null & surface.referenced)
     if not len(where):
         return

@@ -5,38 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache
 from importlib import import_module
+from pkgutil import iter_modules
 
 from ..errors import UsageError
+from ..support.order import in_order
 from ..support.words import suggestion
 from .base import CheckRule, registered
 
-# The files of built-in identities, in the order of the report.
-BUILT_IN = (
-    "gauss_bonnet",
-    "fenchel",
-    "holonomy",
-    "total_absolute_curvature",
-    "balance",
-    "variation",
-    "first_variation",
-    "dirichlet",
-    "partition",
-)
+# Modules of this folder that declare no identity.
+WITHOUT_IDENTITIES = ("base", "catalogue", "special", "summary")
+
+_OWN = f"{__package__}."
 
 
 @cache
-def _load_built_ins() -> tuple[str, ...]:
-    """The names of the built-in identities, after their files are imported."""
-    modules = [f"{__package__}.{name}" for name in BUILT_IN]
-    for module in modules:
-        import_module(module)
-    own = [rule for rule in registered.values() if rule.function.__module__ in modules]
-    return tuple(rule.name for rule in sorted(own, key=lambda rule: modules.index(rule.function.__module__)))
+def _load_built_ins() -> None:
+    for module in iter_modules(import_module(__package__).__path__):
+        if not module.ispkg and module.name not in WITHOUT_IDENTITIES:
+            import_module(f".{module.name}", __package__)
 
 
 def identities() -> dict[str, CheckRule]:
     """The identities by name: built-ins in the order of the report, then those of plug-ins that are loaded."""
-    return {name: registered[name] for name in dict.fromkeys([*_load_built_ins(), *registered])}
+    _load_built_ins()
+    built_ins_first = sorted(registered.items(), key=lambda entry: not entry[1].function.__module__.startswith(_OWN))
+    return dict(in_order(built_ins_first, lambda entry: entry[0], lambda entry: entry[1].after))
 
 
 def named_checks(names: str | Iterable[str]) -> list[str]:

@@ -19,6 +19,7 @@ from .base import IdentityValues, check, exclude_null, rounding
     "the angle opposite e",
     failure="a cotangent weight is wrong. Needles weaken the test: the sines of their angles are small, and the bound "
     "is as large as their rounding.",
+    after="first_variation",
 )
 def dirichlet(
     surface: Surface,

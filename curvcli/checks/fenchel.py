@@ -17,6 +17,7 @@ from .base import IdentityValues, check
     applies="where there is a closed boundary curve; the loop that turns least is tested",
     bound="16ε · vertices of the loop",
     failure="a turning angle of a boundary loop is wrong, or the loop is not walked as it runs.",
+    after="gauss_bonnet_combinatorial",
 )
 def fenchel(surface: Surface, groups: Groups) -> IdentityValues:
     """Every closed boundary curve has total curvature Σψ ≥ 2π, with equality if it is plane and convex."""

@@ -23,6 +23,7 @@ SAMPLES = 64
     "vertex",
     failure="a gradient is not the derivative of what it is named after. This is the one identity that moves "
     "vertices: it does not share its formulas with what it tests.",
+    after="volume",
 )
 def first_variation(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, A_vec: VectorColumn, degenerate: Flags

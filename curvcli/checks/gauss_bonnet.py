@@ -18,6 +18,7 @@ from .base import IdentityValues, check, exclude_null, rounding
     "K is undefined at a vertex",
     bound="16ε(F + V): π and 2π are rounded once at each face and each vertex, and each angle has an error of a few ε",
     failure="an angle, a vertex's curvature or χ is wrong. No mesh fails it for its shape.",
+    after="",
 )
 def gauss_bonnet(surface: Surface, groups: Groups, K: Column, kappa_g: Column) -> IdentityValues:
     """ΣK + Σκ_g = 2πχ for any triangle complex; certifies the curvatures and χ, not that the mesh is sound."""
@@ -35,6 +36,7 @@ def gauss_bonnet(surface: Surface, groups: Groups, K: Column, kappa_g: Column) -
     applies="every triangle complex",
     bound="(16 + log₂N)ε · (Σ|K_comb| + 2π|χ|)",
     failure="edges, degrees or χ were counted wrongly: topology contradicts itself.",
+    after="gauss_bonnet",
 )
 def gauss_bonnet_combinatorial(surface: Surface, groups: Groups, K_comb: Column) -> IdentityValues:
     """ΣK_comb = 2πχ: Gauss–Bonnet with every triangle equilateral; counts the mesh against itself."""

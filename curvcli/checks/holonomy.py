@@ -26,6 +26,7 @@ LARGEST_STAR = 256
     bound="(16 + log₂n)ε · πn, n the most faces at a vertex: one rotation of a few ε per face",
     failure="K of a vertex is not the rotation that the faces round it make: an angle, or the order of the faces, is "
     "wrong there.",
+    after="fenchel",
 )
 def holonomy(surface: Surface, groups: Groups, K: Column, unit_normal: VectorColumn) -> IdentityValues:
     """Carrying a tangent vector counterclockwise round p, across one edge after another, turns it by +K_p (mod 2π)."""

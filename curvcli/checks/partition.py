@@ -17,9 +17,9 @@ from .base import IdentityValues, check
 class Share:
     """Shares of one total in the unit of computation, with H = κ₁ + κ₂.
 
-    key: of the total. values: (R + 1,) or (R + 1, 3), of the R regions and of the faces without one; NaN where the
-    total of the whole is undefined. total: of the whole, () or (3,). bound: of the rounding error of Σ values − total.
-    energy: a multiple of the bending rigidity.
+    key, length_exponent, mean_degree: of the total. values: (R + 1,) or (R + 1, 3), of the R regions and of the faces
+    without one; NaN where the total of the whole is undefined. total: of the whole, () or (3,). bound: of the rounding
+    error of Σ values − total. energy: a multiple of the bending rigidity.
     """
 
     key: str
@@ -36,6 +36,7 @@ class Share:
     applies="surfaces with --regions",
     bound="(16 + log₂N)ε · Σ|terms| + ε · Σ over the elements on borders of their number of faces · |term|",
     failure="a value belongs to no region or to several.",
+    after="dirichlet",
 )
 def partition(surface: Surface, groups: Groups, shares: Sequence[Share]) -> IdentityValues:
     """The shares of all regions and of the faces without a region add up to the total of the whole, for every total.

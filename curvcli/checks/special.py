@@ -17,7 +17,7 @@ from ..support.blocks import slices
 
 
 def constant_mean_curvature(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
-    """Distance from constant mean curvature and from a minimal surface.
+    """Distance from constant mean curvature and from a minimal surface, (G,) each.
 
     `H` = −Σ **H**·**A**/A_p ÷ Σ|**A**|²/A_p, the projection in the area measure, positive on convex bodies.
     Over interior vertices: `residual_max`, the largest |**H**_p + H **A**_p|, and `residual_density_max`, the largest
@@ -85,7 +85,7 @@ def steiner(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dic
 
 
 def competing_normals(surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> dict[str, Floats]:
-    """The angle between the lines of **H**_p and **A**_p over interior vertices: its largest and its mean value.
+    """The angle between the lines of **H**_p and **A**_p over interior vertices: (G,) largest and mean, in radians.
 
     Both are normals at p: moving p along **H**_p decreases area fastest, along **A**_p increases volume fastest.
     """

@@ -19,6 +19,7 @@ from .base import IdentityValues, check, exclude_null
     bound="16ε(F + V)",
     failure="the normal cones of K⁺ or K⁻ are too small somewhere: every closed surface has at least this much "
     "curvature.",
+    after="holonomy",
 )
 def total_absolute_curvature(surface: Surface, groups: Groups, K_plus: Column, K_minus: Column) -> IdentityValues:
     """ΣK⁺ + ΣK⁻ ≥ 2π(4 − χ) for each closed component, one-sided or not (Chern–Lashof, Kuiper); if equal, tight."""

@@ -21,6 +21,7 @@ from .base import IdentityValues, check, exclude_null, rounding
     bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base; for the "
     "sum of gradients without the distance",
     failure="the gradient of area is wrong at some vertex; detail says whether its sum is not zero either.",
+    after="vector_area",
 )
 def area_gradient(
     surface: Surface, groups: Groups, area_gradient: VectorColumn, face_area: Column, star_extent: Column
@@ -53,6 +54,7 @@ def area_gradient(
     applies="closed orientable surfaces whose oriented faces cancel at every edge",
     bound="(16 + log₂N)ε · Σ (area of the star + ε · (Σ extents)²) · distance from the base, over the stars",
     failure="A_vec of some vertex or the volume is wrong.",
+    after="area_gradient",
 )
 def volume(
     surface: Surface, groups: Groups, A_vec: VectorColumn, star_area: Column, star_extent: Column

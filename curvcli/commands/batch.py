@@ -34,6 +34,12 @@ if TYPE_CHECKING:
     help="Outputs per mesh, by suffix as for `analyze -o`, such as csv,ply,png,json, or a table, such as edges.csv. "
     "By default only the summary is written.",
 )
+@click.option(
+    "--long",
+    is_flag=True,
+    help="Also write DIR/statistics.csv and .parquet: a row per mesh, region, column and statistic. --stat chooses the "
+    "statistics.",
+)
 @click.option("--files-from", metavar="LIST|-", help="Read more meshes from a list, one per line or NUL-terminated.")
 @click.option("-j", "--jobs", type=click.IntRange(1), help="Meshes at a time.  [default: one per processor]")
 @click.option(
@@ -69,12 +75,14 @@ def command(patterns: tuple[str, ...], **settings: Any) -> int:
 
     Quote patterns to have `**` expanded here. Paths below DIR mirror the tree that the meshes are in, with the whole
     name of each: scans/a/b.ply by 'scans/**/*.ply' becomes DIR/a/b.ply.csv. DIR/summary.csv and .parquet have one row
-    per mesh in the order of the inputs, DIR/manifest.jsonl one line per mesh as it ends. With curvcli[remote], a
-    PATTERN may be a URL that fsspec knows.
+    per mesh in the order of the inputs, DIR/manifest.jsonl one line per mesh as it ends. With --long,
+    DIR/statistics.csv and .parquet have a row per number: mesh, region (empty for the whole), column or total,
+    statistic, value. With curvcli[remote], a PATTERN may be a URL that fsspec knows.
 
     \b
       curvcli batch 'scans/**/*.ply' -o out --save csv,json -j 8
       curvcli batch 'scans/**/*.ply' -o out --save csv,json -j 8 --resume
+      curvcli batch 'subjects/*.gii' -o out --regions parcel --long
       find . -name '*.stl' -print0 | curvcli batch -o out --files-from -
       curvcli batch 's3://bucket/scans/*.obj' -o out --scheduler tcp://host:8786
     """

@@ -137,7 +137,11 @@ def _report(measures: CurveMeasures, weld: str | float, unit: str | None) -> Cur
     from ..report.curves import model
 
     file = measures.curve_set.file
-    return model(measures, weld=file.weld if file is not None else str(weld), unit=unit)
+    return model(
+        measures,
+        weld=file.weld if file is not None else str(weld),
+        unit=unit or (file.unit if file is not None else None),
+    )
 
 
 def _show(report: CurveReport, verbose: int) -> None:

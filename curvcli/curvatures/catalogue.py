@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cache
 from importlib import import_module
+from pkgutil import iter_modules
 
 from ..errors import UsageError
 from ..mesh.scale import EstimatorSettings
@@ -12,32 +13,8 @@ from ..support.words import suggestion
 from .quantity import AT_SCALE, Quantity
 from .registry import Registry, passes
 
-# The built-in passes, one idea per file; a pass may need only quantities of earlier files.
-BUILT_IN = (
-    "star",
-    "status",
-    "angle_defect",
-    "mean",
-    "faces",
-    "edges",
-    "absolute",
-    "directions",
-    "areas",
-    "delaunay",
-    "densities",
-    "principal",
-    "willmore",
-    "membranes",
-    "folding",
-    "conformal",
-    "dirichlet",
-    "averaged",
-    "vertex_normals",
-    "corrected",
-    "fits",
-    "at_scale",
-    "uncertainty",
-)
+# Modules of this folder that declare no pass.
+WITHOUT_PASSES = ("catalogue", "derived", "engine", "quantity", "registry", "setting", "settings")
 
 # The default preset, in the order of the table.
 CORE = (
@@ -114,9 +91,10 @@ def load_passes() -> None:
     """
     from importlib.metadata import entry_points
 
-    for name in BUILT_IN:
-        import_module(f".{name}", __package__)
-
+    with passes.in_any_order():
+        for module in iter_modules(import_module(__package__).__path__):
+            if not module.ispkg and module.name not in WITHOUT_PASSES:
+                import_module(f".{module.name}", __package__)
     for plug_in in entry_points(group="curvcli.passes"):
         try:
             plug_in.load()

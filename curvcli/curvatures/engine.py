@@ -46,7 +46,10 @@ def arguments(
     area: str = "barycentric",
     settings: EstimatorSettings = DEFAULTS,
 ) -> list[Any]:
-    """The arguments of a pass."""
+    """The arguments of a pass, in the order of its needs.
+
+    have: the columns computed so far, (n,) or (3, n) each. area: of `cell_area`.
+    """
     columns = iter(needs(step, area))
 
     def answer(need: str) -> Any:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, TypeVar
+from typing import Any, Literal, Protocol
 
 from ..mesh.scale import PARAMETERS
 from .setting import Setting
@@ -110,7 +109,7 @@ class Configurable(Protocol):
 
 
 class Step(Configurable, Protocol):
-    """Protocol of a pass for the engine, see `registry.Pass`."""
+    """Protocol of a pass for the engine; `registry.Pass` describes the members."""
 
     @property
     def compute(self) -> Callable[..., Any]: ...
@@ -130,31 +129,3 @@ class Provider(Protocol):
     def provider(self, quantity: str) -> Step: ...
     def depends_on_scale(self, name: str) -> bool: ...
     def looks_around(self, name: str) -> bool: ...
-
-
-_Entry = TypeVar("_Entry")
-
-
-def in_order(
-    entries: Iterable[_Entry], name: Callable[[_Entry], str], after: Callable[[_Entry], str | None]
-) -> list[_Entry]:
-    """Sort entries so that each comes behind the one that it names, whatever order they are declared in.
-
-    after: "" for the first; an entry that names none, or one that is not there, comes last. Of two behind the same
-    entry, the one that fewer others follow comes first.
-    """
-    listed = list(entries)
-    names = {name(entry) for entry in listed}
-    followers: dict[str | None, list[_Entry]] = defaultdict(list)
-    for entry in listed:
-        before = after(entry)
-        followers[before if before == "" or before in names else None].append(entry)
-
-    def chain(before: str | None) -> list[_Entry]:
-        """The entries behind one, each followed by its own."""
-        chains = [[entry, *chain(name(entry))] for entry in followers[before]]
-        if before is not None:
-            chains.sort(key=lambda each: (len(each), name(each[0])))
-        return [entry for each in chains for entry in each]
-
-    return chain("") + chain(None)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from operator import getitem
@@ -16,8 +17,9 @@ from typing import Any, get_args
 
 from ..errors import UsageError
 from ..mesh.scale import PARAMETERS
+from ..support.order import in_order
 from ..support.words import suggestion
-from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity, in_order
+from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity
 from .setting import Setting, split_signature
 
 # The names of scales at the end of a column: `3rings`, `2.5e`, `r0.1`.
@@ -87,6 +89,7 @@ class Registry(Mapping[str, Pass]):
         self._home = home
         self._passes: dict[str, Pass] = {}
         self._providers: dict[str, Pass] = {}
+        self._waiting: list[Pass] | None = None
 
     def __reduce__(self) -> str | tuple[Any, ...]:
         """Pickle a registry by its home, and one without a home as an object."""
@@ -112,10 +115,12 @@ class Registry(Mapping[str, Pass]):
 
         Its needs must be known and its columns new, so that a misspelling fails at import. Errors: UsageError.
         """
-        for need in new.needs:
-            if need not in self._providers and need not in (*NO_QUANTITIES, CELL_AREA):
-                way_out = suggestion(need, [*self._providers, *NO_QUANTITIES, CELL_AREA])
-                raise UsageError(f"pass {new.name} needs {need}, which no pass provides{way_out}")
+        for need in self._unknown(new):
+            if self._waiting is not None:
+                self._waiting.append(new)
+                return new
+            way_out = suggestion(need, [*self._providers, *NO_QUANTITIES, CELL_AREA])
+            raise UsageError(f"pass {new.name} needs {need}, which no pass provides{way_out}")
         apart = {need for need in new.needs if need == SURFACE or need in PARAMETERS}
         apart |= {need for need in new.needs if need in self._providers and self.quantity(need).on != "vertex"}
         apart |= {setting.name for setting in new.settings if setting.by_region}
@@ -135,6 +140,26 @@ class Registry(Mapping[str, Pass]):
         self._passes[new.name] = new
         self._providers.update({quantity.name: new for quantity in new.provides})
         return new
+
+    def _unknown(self, new: Pass) -> list[str]:
+        """The needs of a pass that no registered pass provides."""
+        return [need for need in new.needs if need not in self._providers and need not in (*NO_QUANTITIES, CELL_AREA)]
+
+    @contextmanager
+    def in_any_order(self) -> Iterator[None]:
+        """Within it, a pass may be added before those that it needs. Errors at the end: UsageError, as of `add`."""
+        self._waiting = []
+        try:
+            yield
+            todo = self._waiting
+        finally:
+            self._waiting = None
+        while todo:
+            # Where none is ready, the first one fails.
+            ready = [new for new in todo if not self._unknown(new)] or todo
+            for new in ready:
+                self.add(new)
+            todo = [new for new in todo if new.name not in self._passes]
 
     def _settled(self, quantity: Quantity, needs: tuple[str, ...]) -> Quantity:
         """The quantity with `rooted` set, inherited from its needs if None."""

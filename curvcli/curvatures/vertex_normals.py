@@ -247,7 +247,7 @@ class _Fit:
 
 
 def pair_blocks(indptr: NDArray[np.integer], size: int = _PAIRS) -> Iterator[slice]:
-    """Slices of at least one row with about so many entries each."""
+    """Slices of at least one row with about so many entries each. indptr: (rows + 1,) of a sparse matrix."""
     rows = len(indptr) - 1
     start = 0
     while start < rows:

@@ -25,11 +25,11 @@ _TABLE = "`curvcli compare` reads reports and tables"
 # By suffix; every command was run.
 _WAYS_OUT = {
     **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "msh", "nas", "tec", "vol"), _MESHIO),
-    **dict.fromkeys(("exo", "pvd", "pvtu", "vti", "vtk", "vtkhdf", "vtm", "vtmb", "vtpd", "vtr", "vts"), _VTK),
+    **dict.fromkeys(("exo", "pvd", "pvtu", "vti", "vtkhdf", "vtm", "vtmb", "vtpd", "vtr", "vts"), _VTK),
     "pvtp": "it names files of pieces, which are never opened by reference: give the .vtp files themselves",
     **dict.fromkeys(("step", "stp", "iges", "igs", "brep"), _GMSH),
     **dict.fromkeys(
-        ("3dm", "3mf", "amf", "catpart", "dwg", "dxf", "f3d", "fcstd", "ipt", "jt", "prt", "scad", "sldprt", "x_t"),
+        ("3dm", "amf", "catpart", "dwg", "dxf", "f3d", "fcstd", "ipt", "jt", "prt", "scad", "sldprt", "x_t"),
         _CAD,
     ),
     **dict.fromkeys(("3ds", "abc", "blend", "c4d", "dae", "fbx", "ma", "max", "mb", "usd", "usda", "usdz"), _SCENE),

@@ -108,7 +108,7 @@ def as_triangles(faces: ArrayLike, vertices: int) -> Index:
 
 
 def with_repeated_corner(triangles: Index) -> NDArray[np.intp]:
-    """Indices of the triangles with a repeated corner."""
+    """(n,) indices of the triangles with a repeated corner. triangles: (F, 3)."""
 
     def find(block: slice) -> NDArray[np.intp]:
         a, b, c = triangles[block].T

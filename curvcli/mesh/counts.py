@@ -19,7 +19,12 @@ from .welding import position_keys, weld_exact
 
 @dataclass(frozen=True)
 class GroupCounts:
-    """Counts and flags, one entry per group."""
+    """Counts and flags, (G,) each.
+
+    Vertices and edges are those that faces of the group use, χ = V − E + F. closed: no boundary edge. manifold: at most
+    two faces at an edge, one fan at a vertex. orientable: all its patches are. consistent_winding: two faces of an edge
+    run along it in opposite ways, as oriented. balanced: the oriented half-edges of every edge cancel.
+    """
 
     vertices: Ints
     edges: Ints
@@ -90,7 +95,10 @@ def _winding_conflicts(surface: Surface) -> Mask:
 
 @dataclass(frozen=True)
 class Classification:
-    """Components per group, and their boundary loops, genus and crosscaps summed; NaN where one of them is null."""
+    """Components per group, and their boundary loops, genus and crosscaps summed, (G,) each.
+
+    boundary_loops, genus, crosscaps: NaN where that of a component is null: it is no manifold, or of the other kind.
+    """
 
     components: Ints
     boundary_loops: NDArray[np.float64]
@@ -126,7 +134,7 @@ def classify(surface: Surface, groups: Groups) -> Classification:
 
 @cached
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
-    """Referenced vertices beyond the first at exactly the same position."""
+    """(n,) indices of the referenced vertices beyond the first at exactly the same position."""
     if surface.cut_from is not None:  # the cut surface has several vertices at one position
         there = surface.cut_from
         return np.flatnonzero(np.isin(there.vertex, duplicate_vertices(there.surface)))
@@ -140,7 +148,7 @@ def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
 
 @cached
 def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
-    """Faces beyond the first with the same three corners in any order."""
+    """(n,) indices of the faces beyond the first with the same three corners in any order."""
     suspects = np.flatnonzero(_shared_keys(lambda: _corner_keys(surface)))
     if not len(suspects):
         return suspects

@@ -56,6 +56,7 @@ NO_POLYLINES = Polylines(np.empty(0, np.int32), np.zeros(1, np.int64))
 class MeshFile:
     """The content of one mesh file.
 
+    format: the name of its format, `arrays` without a file.
     xyz: (3, V) float64, C-contiguous, one row per coordinate; vertex order is the file's.
     corners: int32, the corner indices (from 0) of all polygons, concatenated.
     sizes: (P,) int32, corners per polygon, or None when every polygon is a triangle (corners is then 3 P long).
@@ -68,6 +69,7 @@ class MeshFile:
     weld: the rule that merged vertices: `none`, `exact` or a tolerance.
     corner_normals: (3, V) sums of an OBJ file's unit normals over the corners at each vertex, on request.
     corner_texture: (2, C) texture coordinates of the corners of an OBJ file, NaN where it gives none, on request.
+    unit: name of the unit of length that the file gives.
     notices: warnings about accepted content.
     """
 
@@ -86,6 +88,7 @@ class MeshFile:
     weld: str = "none"
     corner_normals: NDArray[np.float64] | None = None
     corner_texture: NDArray[np.float64] | None = None
+    unit: str | None = None
     notices: tuple[Notice, ...] = ()
 
     @property

@@ -32,7 +32,7 @@ class Segments:
 
     @property
     def order(self) -> NDArray[np.int64]:
-        """Members of all groups, group after group, each in ascending order."""
+        """(n,) members of all groups, group after group, each in ascending order."""
         order, start, _ = self._runs
         return order[start[0] :]
 
@@ -44,11 +44,14 @@ class Segments:
         return order[start[group] : start[group] + per_group[group]]
 
     def members(self) -> NDArray[np.int64]:
-        """Number of members of each group."""
+        """(G,) number of members of each group."""
         return np.array([self.size]) if self.label is None else self._runs[2]
 
     def sum(self, values: NDArray[np.generic]) -> NDArray[np.float64]:
-        """Sums over each group by pairwise summation, error O(log n · ε); nulls (NaN) are left out."""
+        """(G,) sums over each group by pairwise summation, error O(log n · ε); nulls (NaN) are left out.
+
+        values: (n,), one for each member.
+        """
         numbers = np.asarray(values, np.float64)
         if np.isnan(numbers).any():
             numbers = np.where(np.isnan(numbers), 0.0, numbers)
@@ -62,13 +65,13 @@ class Segments:
         return sums
 
     def count_of(self, members: NDArray[np.integer]) -> NDArray[np.int64]:
-        """Number of the given members in each group."""
+        """(G,) number of the given members in each group."""
         if self.label is None:
             return np.array([len(members)])
         return np.bincount(self.label[members] + 1, minlength=self.count + 1)[1:]
 
     def count_true(self, mask: NDArray[np.bool_]) -> NDArray[np.int64]:
-        """Number of members of each group where the mask holds."""
+        """(G,) number of members of each group where the (n,) mask holds."""
         if self.label is None:
             return np.array([np.count_nonzero(mask)])
         return self.count_of(np.flatnonzero(mask))
@@ -79,7 +82,7 @@ class Segments:
         return result
 
     def max(self, values: Floats) -> Floats:
-        """Largest value of each group; NaN for a group without one."""
+        """(G,) largest of the (n,) values in each group; NaN for a group without one."""
         largest = np.full(self.count, -np.inf)
         known = ~np.isnan(values)
         if self.label is None:
@@ -94,7 +97,8 @@ class Segments:
 class Groups:
     """A partition of a surface's faces, with the vertices that go with each part.
 
-    kind: `whole`, `component` or `region`. face: (F,) group of each face. names: of the groups; None for numbers.
+    kind: `whole`, `component` or `region`. count: G. face: (F,) group of each face. faces, vertices: the members of
+    each group. names: of the groups; empty for numbers.
     """
 
     kind: str

@@ -102,7 +102,7 @@ class Incidence:
     @cached_property
     @frozen
     def boundary_half_edges(self) -> Index:
-        """Half-edges of the boundary edges, in edge order."""
+        """(n,) half-edges of the boundary edges, in edge order."""
         if not self.coherent:
             return self.edges.half_edges(np.flatnonzero(self.edges.valence == 1))
         tail, head = ends_of(self.faces, self.stars.rim)

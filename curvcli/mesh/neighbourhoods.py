@@ -71,6 +71,7 @@ def neighbourhoods(surface: Surface, scale: Scale) -> Iterator[tuple[slice, Patt
     many edges. Radius: the vertices within that distance in space that a path of edges within it joins to the centre;
     a sheet that passes nearby is left out. Columns within a row are unordered. Rows with far more vertices than usual
     at the scale, next to vertices of huge degree, are left empty.
+    Errors: InputError for a radius that takes in too many vertices.
     """
     kept = _KEPT.get(surface)
     if kept is not None and kept[0] == scale:

@@ -84,7 +84,7 @@ def orient_stars(faces: Index, edges: Edges) -> Sign:
 
 
 def edge_directions(faces: Index, half_edges: Index, orientation: Orientation) -> Sign:
-    """+1 where the oriented face runs along its half-edge from the lower end to the higher, else -1."""
+    """(n,) +1 where the oriented face runs along its half-edge from the lower end to the higher, else -1."""
     tail, head = ends_of(faces, half_edges)
     way = np.where(tail < head, 1, -1).astype(np.int8)
     if orientation.face_sign is not None:
@@ -106,6 +106,7 @@ class Uncancelled(NamedTuple):
 def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent: bool) -> Uncancelled:
     """The edges whose oriented half-edges do not cancel.
 
+    faces: (F, 3). edges: all edges of the faces.
     consistent: no edge with n_e = 2 has two half-edges of the same direction.
     """
     if consistent and orientation.face_sign is None:
@@ -123,7 +124,7 @@ def uncancelled(faces: Index, edges: Edges, orientation: Orientation, consistent
 
 
 def uncancelled_rim(faces: Index, rim: Index, orientation: Orientation) -> Uncancelled:
-    """`uncancelled` for coherent faces. rim: half-edges of the edges with n_e = 1."""
+    """`uncancelled` for coherent (F, 3) faces. rim: (n,) half-edges of the edges with n_e = 1."""
     tail, head = ends_of(faces, rim)
     surplus = edge_directions(faces, rim, orientation).astype(np.int32)
     return Uncancelled(np.minimum(tail, head), np.maximum(tail, head), surplus)

@@ -41,7 +41,7 @@ def precision(surface: Surface) -> float:
 
 
 def is_single(values: NDArray[np.float64]) -> bool:
-    """True if every value is a float32 number, as in binary STL and most PLY files."""
+    """True if every value is a float32 number, as in binary STL and most PLY files. values: (3, V), or any rows."""
     with np.errstate(over="ignore", under="ignore"):
         return all(bool((row.astype(np.float32) == row).all()) for row in values)
 
@@ -56,7 +56,10 @@ def last_place(surface: Surface, kind: type[np.floating[Any]] = np.float64) -> f
 
 
 def decimals(values: NDArray[np.float64], largest: float) -> int | None:
-    """Number of digits after the point in the large values; None for as many as doubles hold."""
+    """Number of digits after the point in the large values; None for as many as doubles hold.
+
+    values: (n,) or (3, n) coordinates as given. largest: the largest absolute value.
+    """
     if not _RANGE[0] < largest < _RANGE[1]:
         return None
     large = np.abs(values[np.abs(values) >= _DECADE * largest])

@@ -42,7 +42,10 @@ class Effect(NamedTuple):
 
 
 class Seam(NamedTuple):
-    """Boundary vertices that nearly coincide, and the tolerance whose welding closes most boundary edges."""
+    """Boundary vertices that nearly coincide, and the tolerance whose welding closes most boundary edges.
+
+    vertices: (n,) indices. tolerance: relative to the diagonal, as `--weld` takes it. effect: of that welding.
+    """
 
     vertices: NDArray[np.intp]
     tolerance: str
@@ -50,7 +53,7 @@ class Seam(NamedTuple):
 
 
 def effect(surface: Surface, lowest: NDArray[np.integer]) -> Effect:
-    """Compute the effect of merging each vertex into `lowest`, from the faces at merged vertices."""
+    """Compute the effect of merging each vertex into (V,) `lowest`, from the faces at merged vertices."""
     old = surface.edges
     merged = np.zeros(surface.n_vertices, bool)
     merged[lowest[surface.referenced & (lowest != np.arange(len(lowest)))]] = True

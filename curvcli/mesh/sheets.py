@@ -38,7 +38,7 @@ def sheets(surface: Surface) -> Surface:
 
 
 def on_single_fans(surface: Surface, columns_of_sheets: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Columns of the sheets as columns of the surface: null, and flags False, at vertices of several fans."""
+    """(V,) or (3, V) columns of the surface from those of its sheets: null or False at vertices of several fans."""
     columns = {}
     for name, column in columns_of_sheets.items():
         column = column[..., : surface.n_vertices].copy()

@@ -26,9 +26,9 @@ _EVEN, _ODD = ((0, 1, 2), (1, 2, 0), (2, 0, 1)), ((0, 2, 1), (1, 0, 2), (2, 1, 0
 
 
 def sides(normal: Vector, other: Floats) -> Sign:
-    """The sign of normal · other where it exceeds the error bound, else 0; all components at most 1 in size.
+    """(n,) sign of normal · other where it exceeds the error bound, else 0.
 
-    normal: cross products of two such vectors each.
+    normal, other: (3, n). All components of other are at most 1 in size; normal: cross products of two such vectors.
     """
     determinant = dot(normal, other)
     result: Sign = (determinant > _ROUNDING).view(np.int8) - (determinant < -_ROUNDING).view(np.int8)

@@ -145,7 +145,7 @@ class Surface(Incidence):
         return 0 if extent == 0 or abs(exponent) <= _LARGEST_EXPONENT else exponent
 
     def in_file_unit(self, values: NDArray[np.float64], length_exponent: int) -> NDArray[np.float64]:
-        """Convert values of a length exponent from the unit of computation to the file's; NaN on overflow."""
+        """Convert values, of any shape, from the unit of computation to the file's; NaN on overflow."""
         power = length_exponent * self.unit_exponent
         if not power:
             return values

@@ -23,7 +23,7 @@ _SAMPLE = 8
 
 
 class InnerEdges(NamedTuple):
-    """Some edges with n_e = 2, indices as intp for fast gathers and scatters.
+    """Some (n,) edges with n_e = 2, indices as intp for fast gathers and scatters.
 
     where: index of the edges. a, b: (n,) their ends. half_edge, twin: (n,) their two half-edges.
     """
@@ -74,14 +74,14 @@ class Edges:
 
     @cached_property
     def unpaired(self) -> NDArray[np.intp]:
-        """The edges with n_e ≠ 2."""
+        """(n,) indices of the edges with n_e ≠ 2."""
         edges = np.zeros(0, np.intp) if self.starts is None else np.flatnonzero(self.valence != 2)
         edges.setflags(write=False)
         return edges
 
     @cached_property
     def inner(self) -> slice | NDArray[np.intp]:
-        """The edges with n_e = 2, as an index."""
+        """The edges with n_e = 2 as an index: (n,), or a slice of all edges."""
         if not len(self.unpaired):
             return slice(None)
         edges = np.flatnonzero(self.valence == 2)
@@ -90,7 +90,7 @@ class Edges:
 
     @cached_property
     def pairs(self) -> tuple[Index, Index]:
-        """The two half-edges of every edge with n_e = 2."""
+        """The two half-edges of every edge with n_e = 2, (n,) each."""
         paired = self.order
         if len(self.unpaired):
             kept = np.ones(len(paired), bool)
@@ -106,7 +106,7 @@ class Edges:
         return InnerEdges(where, *(np.ascontiguousarray(each, np.intp) for each in both))
 
     def half_edges(self, edges: NDArray[np.integer]) -> Index:
-        """All half-edges of the given edges, one edge after the other."""
+        """(Σ n_e,) all half-edges of the (n,) given edges, one edge after the other."""
         chosen: Index = self.order[self._places(edges)]
         return chosen
 
@@ -128,13 +128,13 @@ def _ends(faces: Index) -> tuple[Index, Index]:
 
 
 def ends_of(faces: Index, half_edges: NDArray[np.integer]) -> tuple[Index, Index]:
-    """Tail and head of the given half-edges."""
+    """Tail and head of the (n,) given half-edges. faces: (F, 3)."""
     corners = faces.ravel()
     return corners.take(half_edges), corners.take(next_corner(half_edges))
 
 
 def faces_at(faces: Index, chosen: Mask) -> NDArray[np.intp]:
-    """The faces with a corner among the chosen vertices."""
+    """(n,) indices of the faces with a corner among the chosen vertices. faces: (F, 3). chosen: (V,) mask."""
     result = [np.zeros(0, np.intp)]
     for block in slices(len(faces), LONG):
         a, b, c = (chosen.take(corner) for corner in faces[block].T)
@@ -143,7 +143,10 @@ def faces_at(faces: Index, chosen: Mask) -> NDArray[np.intp]:
 
 
 def find_edges(faces: Index, vertices: int) -> Edges:
-    """Sort the half-edges by their ends with two counting sorts (the transposition of a sparse matrix is one)."""
+    """Sort the half-edges by their ends with two counting sorts (the transposition of a sparse matrix is one).
+
+    faces: (F, 3). vertices: V.
+    """
     by_high = _by_high(faces, vertices)
     n = len(by_high.data)
     by_low = csr_array((by_high.indices, by_high.data, by_high.indptr), shape=(vertices, vertices)).tocsc()
@@ -236,7 +239,10 @@ def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[in
 
 
 def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
-    """Renumber labels 0, 1, … in the order of their first member; unused labels vanish."""
+    """Renumber labels 0, 1, … in the order of their first member; unused labels vanish.
+
+    label: (n,) below count. Returns the number of labels and the new label of each member.
+    """
     lowest = np.full(count, len(label), np.int64)
     np.minimum.at(lowest, label, np.arange(len(label)))
     order = np.argsort(lowest, kind="stable")
@@ -247,7 +253,7 @@ def renumber_by_lowest_member(label: Index, count: int) -> tuple[int, Index]:
 
 
 def next_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
-    """The next half-edge of the same face, which is also the next corner."""
+    """(n,) next half-edge of the same face, which is also the next corner."""
     # numpy's integer division is several times faster than its remainder.
     first = half_edges // 3 * 3
     following: NDArray[np.integer] = half_edges + 1 - 3 * (half_edges == first + 2).astype(half_edges.dtype)
@@ -255,12 +261,12 @@ def next_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
 
 
 def previous_corner(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
-    """The previous half-edge of the same face, which is also the previous corner."""
+    """(n,) previous half-edge of the same face, which is also the previous corner."""
     return half_edges + np.where(half_edges % 3 == 0, 2, -1).astype(half_edges.dtype)
 
 
 def neighbouring_corners(faces: Index, half_edge: Index, twin_half_edge: Index) -> tuple[Index, Index]:
-    """Pairs of corners at the same vertex on the two sides of each edge given by its two half-edges."""
+    """(2n,) pairs of corners at the same vertex on both sides of n edges, each given by its two half-edges."""
     tail = faces.ravel()
     same_way = tail[half_edge] == tail[twin_half_edge]
     at_tail = np.where(same_way, twin_half_edge, next_corner(twin_half_edge))

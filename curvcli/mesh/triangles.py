@@ -33,18 +33,18 @@ NO_AREA = 2.0**-1000
 
 
 def cross(a: Vector, b: Vector) -> list[Floats]:
-    """a × b of vectors given by their components."""
+    """(3, n) a × b of vectors given by their components."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def dot(a: Vector, b: Vector) -> Floats:
-    """a · b of vectors given by their components."""
+    """(n,) a · b of vectors given by their components."""
     product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
     return product
 
 
 def span(xyz: Vector, a: NDArray[np.integer], b: NDArray[np.integer]) -> list[Floats]:
-    """The vectors from points a to points b; xyz: one row per coordinate, a, b: indices, fastest as intp."""
+    """(3, n) vectors from points a to points b. xyz: (3, V). a, b: (n,) indices, fastest as intp."""
     return [x.take(b) - x.take(a) for x in xyz]
 
 
@@ -69,21 +69,21 @@ class Triangles:
     degenerate: Mask | None
 
     def no_angle(self, corner: int) -> Mask:
-        """Mask of the faces without an angle at a corner: a coincident corner, or a lost product of its edges."""
+        """(n,) mask of the faces without an angle at a corner: a coincident corner, or a lost product of its edges."""
         return np.maximum(np.abs(self.cosines[corner]), self.twice_area) < _SMALL_SQUARE
 
     def angle(self, corner: int, out: Floats | None = None) -> Floats:
-        """The angle at a corner."""
+        """(n,) angles at a corner, in radians."""
         angle: Floats = np.arctan2(self.twice_area, self.cosines[corner], out=out)
         return angle
 
     def angles(self, room: Floats) -> list[Floats]:
-        """The angle at each corner. room: (3, n or more), the output array."""
+        """The angle at each corner, in radians. room: (3, n or more), the output array."""
         n = len(self.twice_area)
         return [self.angle(corner, row[:n]) for corner, row in enumerate(room)]
 
     def extent(self) -> Floats:
-        """√(¾ Σ|e|²), between 1 and 1.23 times half the perimeter, at the cost of one square root."""
+        """(n,) √(¾ Σ|e|²), between 1 and 1.23 times half the perimeter, at the cost of one square root."""
         extent: Floats = np.sqrt(1.5 * self.half_squares)
         return extent
 
@@ -94,7 +94,10 @@ def by_corner(faces: Index) -> NDArray[np.intp]:
 
 
 def triangles(xyz: NDArray[np.float64], faces: Index) -> Triangles:
-    """Compute edge vectors, normals and dot products of the given faces; in compensated arithmetic for thin faces."""
+    """Compute edge vectors, normals and dot products of the given faces; in compensated arithmetic for thin faces.
+
+    xyz: (3, V). faces: (n, 3).
+    """
     corners = by_corner(faces)
     p, q, r = ([x.take(corner) for x in xyz] for corner in corners)
     u, w = [b - a for a, b in zip(p, q, strict=True)], [c - a for a, c in zip(p, r, strict=True)]

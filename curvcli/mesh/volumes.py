@@ -25,7 +25,10 @@ def triple_products(xyz: Floats, faces: Index, label: Index) -> Floats:
 
 
 def volume_errors(xyz: Floats, faces: Index, label: Index, chosen: NDArray[np.integer]) -> Floats:
-    """(n,) bounds of the rounding errors of the volumes of the chosen faces and of their sum."""
+    """(n,) bounds of the rounding errors of the volumes of the chosen faces and of their sum.
+
+    xyz: (3, V). faces: (F, 3). label: (F,) group of each face. chosen: (n,) indices.
+    """
     terms, base = np.empty(len(chosen)), _bases(xyz, faces, label)
     for block in slices(len(chosen)):
         t = triangles(xyz, faces[chosen[block]])

@@ -47,7 +47,7 @@ def build(analysis: Result) -> dict[str, Any]:
 def model(analysis: Result) -> Report:
     """Build the report of an analysis."""
     surface = analysis.surface
-    whole = _whole(analysis)
+    whole = whole_piece(analysis)
     conventions = analysis.conventions
     return Report(
         schema_version=1,
@@ -63,8 +63,8 @@ def model(analysis: Result) -> Report:
         fractions=whole.fractions,
         components=_components(analysis),
         loops=loops(analysis),
-        regions=_regions(analysis),
-        columns=_columns(analysis),
+        regions=region_statistics(analysis),
+        columns=column_statistics(analysis),
         checks=analysis.checks,
         warnings=analysis.notices,
         timings=analysis.timings,
@@ -90,7 +90,8 @@ def pieces(analysis: Result, groups: Groups, columns: Sequence[dict[str, Statist
 
 
 @cached
-def _whole(analysis: Result) -> Piece:
+def whole_piece(analysis: Result) -> Piece:
+    """Topology, totals and further values of the whole surface."""
     return pieces(analysis, analysis.surface.whole)[0]
 
 
@@ -103,14 +104,15 @@ def _components(analysis: Result) -> list[Piece]:
     names, components = analysis.request.statistics, analysis.surface.components
     columns = listed_statistics(analysis, components, names) if names else None
     if components.count == 1:
-        whole = _whole(analysis)
+        whole = whole_piece(analysis)
         topology = replace(whole.topology, unreferenced_vertices=0)
         return [replace(whole, topology=topology, columns=columns[0] if columns else msgspec.UNSET)]
     return pieces(analysis, components, columns)
 
 
 @cached
-def _regions(analysis: Result) -> list[Piece]:
+def region_statistics(analysis: Result) -> list[Piece]:
+    """The regions with the statistics of their columns."""
     if analysis.cut is None:
         return []
     return [
@@ -210,7 +212,8 @@ def merged(surface: Surface) -> int:
 
 
 @cached
-def _columns(analysis: Result) -> dict[str, ColumnStatistics]:
+def column_statistics(analysis: Result) -> dict[str, ColumnStatistics]:
+    """Statistics of every column of the whole surface."""
     area, used = analysis.columns["star_area"], analysis.surface.referenced
     return {
         column: statistics(quantity, values, area, used, analysis.conventions.unit_of(quantity))

@@ -1,10 +1,11 @@
-"""The catalogues of identities and requirements name every file, and importing them runs none."""
+"""The catalogues of passes, identities and requirements import every file that declares one, and no other."""
 
 from __future__ import annotations
 
 import pickle
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,20 +13,21 @@ import pytest
 import curvcli.checks
 from curvcli.checks import catalogue
 from curvcli.checks.requirements import catalogue as of_requirements
+from curvcli.curvatures import catalogue as of_passes
 
 FOLDER = Path(curvcli.checks.__file__).parent
 DECLARING = {
-    "identities": (FOLDER, "@check(", catalogue.BUILT_IN),
-    "requirements": (FOLDER / "requirements", "@requirement(", of_requirements.BUILT_IN),
+    "identities": (FOLDER, "@check(", catalogue.WITHOUT_IDENTITIES),
+    "requirements": (FOLDER / "requirements", "@requirement(", of_requirements.WITHOUT_REQUIREMENTS),
+    "passes": (FOLDER.parent / "curvatures", "@curvature_pass(", of_passes.WITHOUT_PASSES),
 }
 
 
 @pytest.mark.parametrize("kind", DECLARING)
-def test_every_declaring_file_is_listed(kind: str) -> None:
-    folder, decorator, listed = DECLARING[kind]
-    declaring = {path.stem for path in folder.glob("*.py") if f"\n{decorator}" in path.read_text(encoding="utf-8")}
-    assert declaring == set(listed)
-    assert len(listed) == len(declaring)
+def test_every_declaring_file_is_imported(kind: str) -> None:
+    folder, decorator, others = DECLARING[kind]
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in folder.glob("*.py") if path.stem != "__init__"}
+    assert {name for name, text in texts.items() if f"\n{decorator}" not in text} == set(others)
 
 
 def test_the_catalogue_imports_no_identity() -> None:
@@ -39,8 +41,8 @@ def test_the_catalogue_imports_no_identity() -> None:
 
 def test_plug_ins_come_after_the_built_ins(monkeypatch: pytest.MonkeyPatch) -> None:
     built_in = list(catalogue.identities())
-    first = dict.fromkeys(["of_a_plug_in", *built_in], catalogue.registered["gauss_bonnet"])
-    monkeypatch.setattr(catalogue, "registered", first)
+    plug_in = replace(catalogue.registered["gauss_bonnet"], name="of_a_plug_in", after=None)
+    monkeypatch.setattr(catalogue, "registered", {"of_a_plug_in": plug_in, **catalogue.registered})
     assert list(catalogue.identities()) == [*built_in, "of_a_plug_in"]
 
 

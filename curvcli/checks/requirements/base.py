@@ -19,8 +19,9 @@ class Requirement:
     """One name of --require: its test returns the fault of a mesh, or nothing.
 
     number: the value after the equals sign, `N` (a whole number), `TOL` (not negative) or none.
-    remedy: the repair of a mesh that fails. needs: the quantities that the test takes by the names of its
-    parameters, and `mean`, the convention for H. default: required of every mesh unless --allow names it.
+    statement: the property, for lists. remedy: the repair of a mesh that fails. needs: the quantities that the test
+    takes by the names of its parameters, and `mean`, the convention for H. default: required of every mesh unless
+    --allow names it. after: the requirement that it follows in lists, "" for the first; None comes last.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Requirement:
     statement: str
     remedy: str
     default: bool = False
+    after: str | None = None
 
     @property
     def usage(self) -> str:
@@ -39,7 +41,7 @@ class Requirement:
 
 @dataclass(frozen=True)
 class Required:
-    """A requirement with its number."""
+    """A requirement with its number. value: the number, None without one."""
 
     requirement: Requirement
     value: float | None = None
@@ -60,11 +62,13 @@ class Required:
         return self.requirement.test(surface, *number, **needs)
 
 
-# By name, in the order of import; `catalogue.requirements` imports the built-ins first.
+# By name; `catalogue.requirements` gives the order of lists.
 registered: dict[str, Requirement] = {}
 
 
-def requirement(name: str, number: Number = "", *, remedy: str, default: bool = False) -> Callable[[Test], Test]:
+def requirement(
+    name: str, number: Number = "", *, remedy: str, default: bool = False, after: str | None = None
+) -> Callable[[Test], Test]:
     """Register a requirement: a function of the surface, its number if it has one, and the quantities it names.
 
     The docstring of the function is the statement. The fields are those of `Requirement`.
@@ -73,7 +77,7 @@ def requirement(name: str, number: Number = "", *, remedy: str, default: bool = 
     def register(test: Test) -> Test:
         needs = tuple(inspect.signature(test).parameters)[2 if number else 1 :]
         statement = (test.__doc__ or "").strip().rstrip(".")
-        registered[name] = Requirement(name, test, needs, number, statement, remedy, default)
+        registered[name] = Requirement(name, test, needs, number, statement, remedy, default, after)
         return test
 
     return register

@@ -6,13 +6,15 @@ import math
 from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib import import_module
+from pkgutil import iter_modules
 
 from ...errors import UsageError
+from ...support.order import in_order
 from ...support.words import suggestion
 from .base import Required, Requirement, registered
 
-# The files of built-in requirements, in the order of lists.
-BUILT_IN = ("topology", "shape", "soundness", "intersections")
+# Modules of this folder that declare no requirement.
+WITHOUT_REQUIREMENTS = ("base", "catalogue", "wording")
 
 # Sets of requirements by name; each may name sets that stand before it.
 SETS: Mapping[str, tuple[str, ...]] = {
@@ -24,14 +26,15 @@ SETS: Mapping[str, tuple[str, ...]] = {
 
 @cache
 def _load_built_ins() -> None:
-    for name in BUILT_IN:
-        import_module(f".{name}", __package__)
+    for module in iter_modules(import_module(__package__).__path__):
+        if module.name not in WITHOUT_REQUIREMENTS:
+            import_module(f".{module.name}", __package__)
 
 
 def requirements() -> dict[str, Requirement]:
-    """All requirements by name."""
+    """All requirements by name, in the order of lists."""
     _load_built_ins()
-    return registered
+    return dict(in_order(registered.items(), lambda entry: entry[0], lambda entry: entry[1].after))
 
 
 def defaults() -> list[str]:

@@ -19,6 +19,7 @@ _FIRST = 3
     "no-self-intersections",
     remedy="`--table intersections=PATH` of `curvcli analyze` lists the pairs; unite or part the bodies there, and "
     "remesh faces that fold over",
+    after="no-duplicate-vertices",
 )
 def no_self_intersections(surface: Surface) -> str:
     """No two faces cross, overlap in one plane or fold over, decided exactly; faces that only touch may stay."""
@@ -36,6 +37,7 @@ def no_self_intersections(surface: Surface) -> str:
     "no-self-contacts",
     remedy="`--table intersections=PATH` of `curvcli analyze` lists the pairs; move them apart, or give the faces "
     "common corners",
+    after="no-self-intersections",
 )
 def no_self_contacts(surface: Surface) -> str:
     """No two faces meet outside the corners and edges that they share: the surface is embedded."""

@@ -16,7 +16,7 @@ from .topology import closed, connected, euler, manifold, oriented
 from .wording import join_problems, vertices
 
 
-@requirement("convex", remedy="look where `K_minus` is largest: there the surface is not convex")
+@requirement("convex", remedy="look where `K_minus` is largest: there the surface is not convex", after="components")
 def convex(surface: Surface, face_area: Column, H_theta: Column, K: Column, K_minus: Column) -> str:
     """The surface bounds a convex body: closed, connected, χ = 2 and ΣK⁻ = 0."""
     problem = join_problems(closed(surface), manifold(surface), connected(surface)) or euler(surface, 2)
@@ -38,6 +38,7 @@ def convex(surface: Surface, face_area: Column, H_theta: Column, K: Column, K_mi
     "minimal",
     "TOL",
     remedy="evolve the surface, refine it regularly, or allow more; `h_hks` is largest at the worst vertex",
+    after="convex",
 )
 def minimal(
     surface: Surface,
@@ -60,6 +61,7 @@ def minimal(
     "cmc",
     "TOL",
     remedy="evolve the surface, refine it regularly, or allow more; where H is 0, require `minimal` instead",
+    after="minimal",
 )
 def cmc(
     surface: Surface,

@@ -20,6 +20,7 @@ _DROPPED = {"repeated_corner_faces": "with a repeated corner", "short_faces": "w
     "no-degenerate",
     default=True,
     remedy="`--weld exact` drops faces with two corners at one place; remesh the others",
+    after="cmc",
 )
 def no_degenerate(surface: Surface, degenerate_face: Flags) -> str:
     """Every face has an area, and none had to be dropped."""
@@ -33,14 +34,19 @@ def no_degenerate(surface: Surface, degenerate_face: Flags) -> str:
     return join_problems(faces(surface, np.flatnonzero(degenerate_face), "without area"), *dropped)
 
 
-@requirement("no-duplicate-faces", default=True, remedy="remove the later of each two: both add to areas and angles")
+@requirement(
+    "no-duplicate-faces",
+    default=True,
+    remedy="remove the later of each two: both add to areas and angles",
+    after="no-degenerate",
+)
 def no_duplicate_faces(surface: Surface) -> str:
     """No two faces have the same corners."""
     result = faces(surface, duplicate_faces(surface), "with the corners of an earlier one")
     return with_explanation(result, describe_walls(surface))
 
 
-@requirement("no-unreferenced", remedy="remove them from the file; they change no value")
+@requirement("no-unreferenced", remedy="remove them from the file; they change no value", after="no-duplicate-faces")
 def no_unreferenced(surface: Surface) -> str:
     """Every vertex belongs to a face."""
     loose = ~surface.referenced
@@ -49,7 +55,7 @@ def no_unreferenced(surface: Surface) -> str:
     return vertices(np.flatnonzero(loose), "that no face uses", "that no face uses")
 
 
-@requirement("no-duplicate-vertices", remedy="`--weld exact` merges them")
+@requirement("no-duplicate-vertices", remedy="`--weld exact` merges them", after="no-unreferenced")
 def no_duplicate_vertices(surface: Surface) -> str:
     """No two vertices of faces are at the same position."""
     twice = duplicate_vertices(surface)

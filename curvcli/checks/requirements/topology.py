@@ -19,6 +19,7 @@ from .wording import edges, face_name, join_problems, located, vertices, with_ex
 @requirement(
     "closed",
     remedy="fill the holes; where positions repeat, `--weld exact` or a tolerance may close the seams",
+    after="",
 )
 def closed(surface: Surface) -> str:
     """No edge has only one face."""
@@ -31,6 +32,7 @@ def closed(surface: Surface) -> str:
     default=True,
     remedy="part the surface where more than two faces meet, give each fan that only touches a vertex of its "
     "own; `--table edges=PATH` lists the edges",
+    after="closed",
 )
 def manifold(surface: Surface) -> str:
     """Every edge has at most two faces and every star is one fan."""
@@ -45,6 +47,7 @@ def manifold(surface: Surface) -> str:
 @requirement(
     "oriented",
     remedy="a one-sided surface has no orientation: cut it open, or look for a face that joins two sides",
+    after="manifold",
 )
 def oriented(surface: Surface) -> str:
     """Every patch has an orientation, whether or not the file winds it so."""
@@ -59,6 +62,7 @@ def oriented(surface: Surface) -> str:
     "consistent-winding",
     default=True,
     remedy="turn the faces in the file; the computation turns them for itself and says how many",
+    after="oriented",
 )
 def consistent_winding(surface: Surface) -> str:
     """Neighbouring faces run along their common edge opposite ways."""
@@ -68,6 +72,7 @@ def consistent_winding(surface: Surface) -> str:
 @requirement(
     "outward",
     remedy="reverse all faces of the patch named, or analyse with `--orient outward`; unite bodies that cross",
+    after="consistent-winding",
 )
 def outward(surface: Surface) -> str:
     """Bodies have a positive volume and cavities a negative one as the file winds them; no two closed patches cross."""
@@ -102,7 +107,7 @@ def _crossing(surface: Surface, apart: Surface) -> str:
     return f"{patches:,} closed patches cross or coincide ({listed}): they have no depth and are kept as wound"
 
 
-@requirement("connected", remedy="remove loose parts; `--table components=PATH` lists them")
+@requirement("connected", remedy="remove loose parts; `--table components=PATH` lists them", after="outward")
 def connected(surface: Surface) -> str:
     """There is one component."""
     return components(surface, 1)
@@ -112,6 +117,7 @@ def connected(surface: Surface) -> str:
     "genus",
     "N",
     remedy="look for a handle or a hole nobody wanted; `--table components=PATH` has χ and loops of each part",
+    after="connected",
 )
 def genus(surface: Surface, wanted: float) -> str:
     """The genus, summed over the components, is N."""
@@ -126,6 +132,7 @@ def genus(surface: Surface, wanted: float) -> str:
     "euler",
     "N",
     remedy="look for a handle, a hole or a part nobody wanted; `--table components=PATH` has χ of each part",
+    after="genus",
 )
 def euler(surface: Surface, wanted: float) -> str:
     """The Euler characteristic V − E + F is N."""
@@ -138,6 +145,7 @@ def euler(surface: Surface, wanted: float) -> str:
     "components",
     "N",
     remedy="remove loose parts or join what belongs together; `--table components=PATH` lists them",
+    after="euler",
 )
 def components(surface: Surface, wanted: float) -> str:
     """There are N components."""

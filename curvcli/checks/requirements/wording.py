@@ -33,12 +33,12 @@ def edges(surface: Surface, mask: NDArray[np.bool_], what: str) -> str:
 
 
 def faces(surface: Surface, where: NDArray[np.integer[Any]], what: str) -> str:
-    """The fault of the given faces; empty for none."""
+    """The fault of the (n,) given faces; empty for none."""
     return located(len(where), f"face {what}", f"faces {what}", face_name(surface, where[0])) if len(where) else ""
 
 
 def vertices(where: NDArray[np.integer[Any]], singular: str, plural: str) -> str:
-    """The fault of the given vertices; empty for none."""
+    """The fault of the (n,) given vertices; empty for none."""
     return located(len(where), f"vertex {singular}", f"vertices {plural}", f"vertex {where[0]}") if len(where) else ""
 
 

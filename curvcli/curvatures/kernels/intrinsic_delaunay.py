@@ -233,7 +233,7 @@ class IntrinsicTriangulation:
     # ------------------------------------------------------------------ results
 
     def lengths_squared(self, edges: slice) -> Floats:
-        """Squared lengths of some edges."""
+        """(n,) squared lengths of a slice of the edges, in the unit of computation."""
         side = self.side[edges].astype(np.intp)
         head = next_corner(side)
         ends = [self.tail.take(corner).astype(np.intp) for corner in (side, head)]

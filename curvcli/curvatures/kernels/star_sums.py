@@ -22,7 +22,12 @@ LARGE_STAR = 32
 
 @dataclass(frozen=True)
 class StarSums:
-    """Sums at vertices and values at faces from one sweep; see the passes that publish them."""
+    """Sums at vertices and values at faces from one sweep, in the unit of computation.
+
+    angle_sum: (V,). area: (V,) of the star. vector, curvature: (3, V) vector area and curvature vector. extent: (V,)
+    sum of the extents of the faces, for bounds of rounding. face_area: (F,). degenerate_face: (F,) faces without area.
+    coincident: (V,) at a corner of a face without an angle there.
+    """
 
     angle_sum: Floats
     area: Floats

@@ -33,7 +33,7 @@ register(
         rows="points",
         digits="as the type says; doubles in text",
         keeps="arrays of points and cells",
-        labels="arrays of cells",
+        labels="arrays of points and cells, numbers or words",
         polygons="triangulated; strips and pixels too",
         curves="lines",
     )

@@ -13,7 +13,7 @@ from ...errors import InputError, Notice
 from ...mesh.file import NO_POLYLINES, Labels, MeshFile, Polylines
 from ...support.words import pluralize
 from ..limits import check_faces
-from .attributes import Attribute, ignored, joined_attributes, labels, properties
+from .attributes import Attribute, joined_attributes, labels, properties
 from .cells import STRAIGHT, CellFaces, joined
 from .kinds import count_of
 
@@ -57,8 +57,7 @@ def mesh_file(data: DataSet, format: str, max_faces: int | None = None, normals:
         notices.append(Notice("other_cells", total, message, "a surface has triangles and polygons only"))
     of_points = joined_attributes([piece.of_points for piece in data.pieces], notices)
     of_cells = joined_attributes([piece.of_cells for piece in data.pieces], notices)
-    words = [attribute.name for attribute in of_points if not attribute.layout]
-    notices += ignored(words, "of words at points", "labels of cells are kept")
+    at_points = labels(of_points, data.meanings)
     corners, sizes, cell = _without_short(faces, notices)
     named = labels(of_cells, data.meanings)
     columns = properties([attribute for attribute in of_cells if attribute.name not in named])
@@ -70,11 +69,12 @@ def mesh_file(data: DataSet, format: str, max_faces: int | None = None, normals:
         xyz,
         corners,
         None if (sizes == 3).all() else sizes.astype(np.int32),
-        vertex_properties=properties(of_points),
+        vertex_properties=properties([attribute for attribute in of_points if attribute.name not in at_points]),
         polygon_properties={name: column if cell is None else column[cell] for name, column in columns.items()},
         polygon_labels={
             name: label if cell is None else Labels(label.codes[cell], label.names) for name, label in named.items()
         },
+        vertex_labels=at_points,
         polylines=_polylines(faces),
         corner_normals=_normals(of_points) if normals else None,
         notices=tuple(notices),

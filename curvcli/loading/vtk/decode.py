@@ -64,7 +64,7 @@ class Decoder:
                 raise InputError(f"type `{kind[:40]}` found, one of {', '.join(TYPES)} expected")
             dtype = np.dtype(self.order + TYPES[kind])
             if array.attributes.get("format", "ascii") == "ascii":
-                return _of_text(self._text(array), np.dtype(TYPES[kind]), count)
+                return numbers_of_text(self._text(array), np.dtype(TYPES[kind]), count)
             values = np.frombuffer(self._bytes(array, count * dtype.itemsize), dtype)
             return values.astype(dtype.newbyteorder("="))
         except InputError as error:
@@ -75,7 +75,7 @@ class Decoder:
         """The words of an array of text, each of which ends with a zero byte."""
         if array.attributes.get("format", "ascii") == "ascii":
             tokens = self._text(array).split()
-            codes = _of_text(b" ".join(tokens), np.dtype(np.int32), len(tokens))
+            codes = numbers_of_text(b" ".join(tokens), np.dtype(np.int32), len(tokens))
             data = (codes & 255).astype(np.uint8).tobytes()
         else:
             data = bytes(self._bytes(array, None))
@@ -88,7 +88,7 @@ class Decoder:
 
     def _bits(self, array: XmlElement, count: int) -> NDArray[np.uint8]:
         if array.attributes.get("format", "ascii") == "ascii":
-            return _of_text(self._text(array), np.dtype(np.uint8), count)
+            return numbers_of_text(self._text(array), np.dtype(np.uint8), count)
         return np.unpackbits(np.frombuffer(self._bytes(array, -(-count // 8)), np.uint8), count=count)
 
     def _text(self, array: XmlElement) -> bytes:
@@ -242,7 +242,7 @@ def _whole(data: bytes, size: int) -> bytes:
     return data
 
 
-def _of_text(text: bytes, dtype: np.dtype[Any], count: int) -> NDArray[Any]:
+def numbers_of_text(text: bytes, dtype: np.dtype[Any], count: int) -> NDArray[Any]:
     """Numbers of a text. Decimal fractions stay doubles, as in all text formats."""
     whole = dtype.kind != "f"
     text = tidy(plain_lines(text)[:-1].replace(b"\n", b" ") + b"\n")

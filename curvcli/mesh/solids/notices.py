@@ -58,7 +58,7 @@ def _inside_out(surface: Surface, wrong: NDArray[np.intp]) -> str:
 
 
 def list_kinds(surface: Surface, patches: NDArray[np.intp]) -> str:
-    """Number of bodies and of cavities among these patches, in words."""
+    """Number of bodies and of cavities among these (n,) patches, in words."""
     cavities = int((surface.solids.depth[patches] % 2).sum())
     bodies = len(patches) - cavities
     counts = [(bodies, "body", "bodies"), (cavities, "cavity", "cavities")]

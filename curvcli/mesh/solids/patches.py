@@ -32,7 +32,7 @@ class _CachedOnSurface(Generic[_Value]):
 
 
 class Patched(Protocol):
-    """Protocol of a surface with patches: see `Surface`."""
+    """Protocol of a surface with patches; `Surface` describes the members."""
 
     @property
     def xyz(self) -> Any: ...

@@ -38,18 +38,18 @@ INSIDE, OUTSIDE, UNDECIDED = 1, 0, -1
 
 
 def size(vector: Vector) -> Floats:
-    """|v|."""
+    """(n,) lengths |v| of (3, n) vectors."""
     length: Floats = np.sqrt(dot(vector, vector))
     return length
 
 
 def permanent(a: Vector, b: Vector) -> list[Floats]:
-    """a × b with absolute values and plus signs: a bound of its terms."""
+    """(3, n) a × b with absolute values and plus signs: a bound of its terms."""
     return [a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]]
 
 
 def certain_sign(value: Floats, error: Floats) -> NDArray[np.int8]:
-    """The sign of a value, +1 or -1, where it exceeds its error, else 0."""
+    """(n,) sign of a value, +1 or -1, where it exceeds its error, else 0."""
     return (value > error).astype(np.int8) - (value < -error).astype(np.int8)
 
 

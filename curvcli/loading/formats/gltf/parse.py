@@ -16,20 +16,17 @@ from numpy.typing import NDArray
 from ....errors import InputError, Notice
 from ....mesh.file import MeshFile
 from ....support.words import number_of, pluralize
-from ...content import free_inflation
+from ...copies import Matrix, check_copies, transformed, turned
 from ...corners import checked_corners
-from ...limits import check_faces
 from ...pieces import Pieces
 from .labels import scene_labels
-from .scene import Matrix, placed_meshes, transformed
+from .scene import placed_meshes
 from .tree import TRIANGLES, Primitive, Tree, check_accessor, check_primitive, embedded, parse_tree
 
 _HEADER, _CHUNK = struct.Struct("<4sII"), struct.Struct("<II")
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
 _CHANNELS = ("red", "green", "blue", "alpha")
 _LARGEST = {"i1": 127, "u1": 255, "i2": 32767, "u2": 65535}
-# Bytes of a vertex and of a triangle in memory.
-_PER_VERTEX, _PER_TRIANGLE = 24, 12
 
 
 def parse_glb(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
@@ -123,10 +120,7 @@ def _check_size(
             corners = position if one.indices is None else tree.accessors[one.indices].count
             faces += corners // 3 if one.mode == TRIANGLES else max(0, corners - 2)
         vertices += sum(tree.accessors[at].count for at in {one.position for one in parts[mesh]})
-    check_faces(faces, most)
-    if _PER_VERTEX * vertices + _PER_TRIANGLE * faces > free_inflation(size):
-        problem = f"copies of meshes with {number_of(faces, 'face')} in all found, too many for {size} bytes"
-        raise InputError(problem, hint="--max-faces sets a limit" if most is None else None)
+    check_copies(vertices, faces, size, most)
 
 
 def _decoded(tree: Tree, parts: dict[int, list[Primitive]], buffers: list[bytes]) -> list[dict[str, Any]]:
@@ -202,7 +196,6 @@ def _assembled(
     rows = 0
     for number, (_, mesh, matrix) in enumerate(placed):
         begins: dict[int, int] = {}
-        turned = np.linalg.det(matrix[:3, :3]) < 0
         for one, content in zip(parts[mesh], arrays[first[mesh] :], strict=False):
             if one.position not in begins:
                 begins[one.position] = rows
@@ -213,7 +206,7 @@ def _assembled(
             faces = np.asarray(content["faces"])
             place = f"mesh {mesh}: triangle"
             own = checked_corners(faces.reshape(-1), 3, place, count).reshape(-1, 3) + np.int32(begins[one.position])
-            corners.append(own[:, [0, 2, 1]] if turned else own)
+            corners.append(turned(own, matrix))
             nodes.append((number, len(own)))
             materials.append((-1 if one.material is None else one.material, len(own)))
     if not sum(map(len, corners)):

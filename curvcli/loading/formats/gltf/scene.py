@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....errors import InputError
+from ...copies import Matrix, product
 from .tree import Node, Tree
-
-Matrix = NDArray[np.float64]
 
 
 def placed_meshes(tree: Tree) -> list[tuple[int, int, Matrix]]:
@@ -30,7 +28,7 @@ def placed_meshes(tree: Tree) -> list[tuple[int, int, Matrix]]:
             raise InputError("a node with two parents found, one expected", place=f"node {number}")
         visited.add(number)
         node = tree.nodes[number]
-        matrix = _product(outer, _local(node))
+        matrix = product(outer, _local(node))
         if node.mesh is not None:
             if node.mesh >= len(tree.meshes):
                 problem = f"mesh {node.mesh} found, 0 to {len(tree.meshes) - 1} expected"
@@ -75,20 +73,3 @@ def _rotation(x: float, y: float, z: float, w: float) -> Matrix:
             [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
         ]
     )
-
-
-def _product(outer: Matrix, inner: Matrix) -> Matrix:
-    """outer · inner, exact where one of them is the identity."""
-    if (inner == np.eye(4)).all():
-        return outer
-    with np.errstate(over="ignore", invalid="ignore"):
-        return inner if (outer == np.eye(4)).all() else outer @ inner
-
-
-def transformed(points: NDArray[np.float64], matrix: Matrix) -> NDArray[np.float64]:
-    """Points (n, 3) under a transform; exact where it moves nothing."""
-    linear, shift = matrix[:3, :3], matrix[:3, 3]
-    with np.errstate(over="ignore", invalid="ignore"):
-        if not (linear == np.eye(3)).all():
-            points = points @ linear.T
-        return points + shift if shift.any() else points
