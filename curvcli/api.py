@@ -15,8 +15,13 @@ from .curvatures.catalogue import loaded
 from .curvatures.registry import Registry
 from .curvatures.settings import with_spontaneous_curvature
 from .loading.load import load
+from .mesh.file import Labels
 from .mesh.surface import Orient, Surface
-from .output.write import write_outputs
+from .output.appearance import Appearance
+from .output.distributions import samples_of
+from .output.tables.columns import HISTOGRAM
+from .output.tables.histogram import histogram_table
+from .output.write import check_appearance, needs, write_outputs
 from .report.build import build
 
 __all__ = ["Analysis", "Registry", "Surface", "analyze", "load", "loaded"]
@@ -31,6 +36,21 @@ class Analysis(Result):
     def report(self) -> dict[str, Any]:
         """The report of `--json` as plain Python values ready for JSON."""
         return build(self)
+
+    def histogram(
+        self, *columns: str, bins: int | None = None, value_range: str | None = None
+    ) -> dict[str, NDArray[Any]]:
+        """The histogram of one vertex column, or of two against each other: the table of `--table histogram=`.
+
+        bins: within the range, per column. value_range: `LO:HI` or `pNN`, as `--range`. Keys are the columns of the
+        table: `column`, `part`, `low`, `high`, `vertices`, `area`, `vertex_share`, `area_share`; undefined is NaN.
+        Errors: UsageError for an unknown column, labels against a column, or an invalid range.
+        """
+        appearance = Appearance(histograms=(columns,), bins=bins, value_range=value_range)
+        check_appearance(appearance, self.chosen)
+        self.include(needs((), [HISTOGRAM], appearance, self.chosen))
+        table = histogram_table(samples_of(self, appearance), appearance)
+        return {name: part.words() if isinstance(part, Labels) else part for name, part in table.items()}
 
     def write(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
         """Write the vertex table, a coloured mesh, a picture or the report, chosen by the suffix, atomically.

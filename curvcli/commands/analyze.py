@@ -20,6 +20,7 @@ from .configured import configuration
 from .meshes import each_mesh, input_of
 from .outputs import one_stdout, print_report, stdin_once, table_option
 from .settings import merge_settings, setting
+from .shared_outputs import SharedOutputs
 from .stems import stem
 from .talk import put, say
 
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
     "tables",
     metavar="KIND=PATH",
     multiple=True,
-    help="Write another table: edges, faces, loops, regions, components or intersections; repeatable.",
+    help="Write another table: edges, faces, loops, regions, components, intersections or histogram; repeatable.",
 )
 @options.passes
 @options.regions
@@ -110,7 +111,7 @@ class AnalyzeRun:
     ) -> None:
         from ..analysis.statistics import parse_statistics
         from ..output.registry import format_of
-        from ..output.tables.columns import TABLES
+        from ..output.tables.columns import HISTOGRAM, TABLES
         from ..output.write import check_appearance, needs
 
         self.meshes, self.as_json, self.get, self.conventions = meshes, as_json, get, conventions
@@ -123,18 +124,21 @@ class AnalyzeRun:
         self.stream_format = stream_format
         self.appearance: Appearance = options.appearance(conventions, precision)
         kinds = [table_option(table, TABLES) for table in tables]
-        self.paths = [[expand(output, mesh, len(meshes)) for output in outputs] for mesh in meshes]
-        self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in kinds] for mesh in meshes]
+        self.shared = SharedOutputs(meshes, outputs, kinds)
+        own = [output for output in outputs if output not in self.shared.pictures]
+        own_tables = [(kind, path) for kind, path in kinds if kind != HISTOGRAM or path not in self.shared.tables]
+        self.paths = [[expand(output, mesh, len(meshes)) for output in own] for mesh in meshes]
+        self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in own_tables] for mesh in meshes]
         check_apart(meshes, self.paths)
         check_apart(meshes, [[path for _, path in each] for each in self.tables])
         kinds_of_output: tuple[OutputKind, ...] = ("table", "mesh", "report", "page", "picture")
         formats = [
             format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
-            for path in self.paths[0]
+            for path in [*self.paths[0], *self.shared.pictures]
         ]
         check_appearance(self.appearance, at_scale, [format.suffix for format in formats])
         self.besides = needs(formats, [kind for kind, _ in kinds], self.appearance, at_scale)
-        for kind, path in self.tables[0]:
+        for kind, path in [*self.tables[0], *((HISTOGRAM, path) for path in self.shared.tables)]:
             format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
             if kind == "regions" and conventions["regions"] is None:
                 raise UsageError("--table regions: there are none without --regions")
@@ -146,11 +150,14 @@ class AnalyzeRun:
 
         # Every output of every mesh is checked before the first mesh is read.
         wanted = [path for paths in self.paths for path in paths]
-        wanted += [path for tables in self.tables for _, path in tables]
+        wanted += [path for tables in self.tables for _, path in tables] + self.shared.paths
         with Outputs(wanted, self.force) as everything:
             ended = each_mesh(
                 self.meshes, lambda number: self.done(number, everything), lambda mesh, message, code: (None, code)
             )
+            for line in self.shared.write(everything, self.appearance):
+                if not self.quiet:
+                    say(line)
         if self.as_json:
             from ..report.model import encode
 
@@ -161,6 +168,7 @@ class AnalyzeRun:
     def done(self, number: int, outputs: Outputs) -> tuple[Report | None, int]:
         """Analyse one mesh, then free the analysis; return its report, if it is printed later, and the exit code."""
         analysis = self.analyze_mesh(self.meshes[number], self.paths[number], self.tables[number], outputs)
+        self.shared.collect(analysis, self.appearance, number)
         return self.print_result(analysis), FAILED_CHECK if self.strict and not analysis.passed else OK
 
     def analyze_mesh(self, mesh: str, paths: list[str], tables: list[tuple[str, str]], outputs: Any) -> Result:

@@ -206,6 +206,19 @@ drawing = together(
         metavar="COLUMN[,COLUMN]",
         help="Columns of pictures and histograms, a panel each; the first one colours meshes and pages.",
     ),
+    click.option(
+        "--histogram",
+        "histograms",
+        metavar="COLUMN[,COLUMN]",
+        multiple=True,
+        help="Column of a histogram, or two against each other, such as kappa_1,kappa_2; repeatable, a panel each.  "
+        "[default: --color-by, else every number]",
+    ),
+    click.option(
+        "--bins",
+        type=click.IntRange(1, 1000),
+        help="Bins of histograms within their range, per column.  [default: 2 ∛n for n values, from 10 to 60]",
+    ),
     click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis."),
     click.option(
         "--range", "value_range", metavar="LO:HI|pNN", help="Ends of the colour map, or a central percentage."
@@ -247,6 +260,11 @@ reading = together(area, mean, orient, weld, unit, input_format, max_faces, max_
 talking = together(quiet, verbose)
 
 
+def _listed(text: str) -> tuple[str, ...]:
+    """Names of a comma list."""
+    return tuple(name.strip() for name in text.split(",") if name.strip())
+
+
 def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appearance:
     """Appearance of outputs from the options of `drawing`, which are removed from the settings.
 
@@ -255,12 +273,12 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
     from ..output.appearance import Appearance
     from ..output.pictures.options import PictureOptions, parse_size
 
-    names = (settings.pop("color_by") or "").split(",")
-    columns = tuple(dict.fromkeys(name.strip() for name in names if name.strip()))
+    columns = tuple(dict.fromkeys(_listed(settings.pop("color_by") or "")))
     view, up, size, background, edges = (settings.pop(key) for key in ("view", "up", "size", "background", "edges_on"))
     cmap, value_range, quality = (settings.pop(key) for key in ("cmap", "value_range", "quality"))
     picture = PictureOptions(view, up, parse_size(size), background, edges, settings.pop("dpi"))
-    return Appearance(columns, cmap, value_range, precision, quality, picture)
+    histograms = tuple(dict.fromkeys(map(_listed, settings.pop("histograms"))))
+    return Appearance(columns, cmap, value_range, precision, quality, histograms, settings.pop("bins"), picture)
 
 
 def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str], list[str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,10 @@ class Labels:
     codes: NDArray[np.int32]
     names: tuple[str, ...]
     colors: NDArray[np.uint8] | None = None
+
+    def words(self) -> NDArray[Any]:
+        """The label of every element, None for no label."""
+        return np.array([*self.names, None], object)[self.codes]
 
 
 class Polylines(Sequence[NDArray[np.int32]]):

@@ -12,7 +12,8 @@ class Appearance:
     """Options for the appearance of tables, coloured meshes and pictures.
 
     color_by: the columns of a picture; the first of them colours a mesh. quality: true if `.ply` also has that column
-    as `quality`, the name that MeshLab colours by.
+    as `quality`, the name that MeshLab colours by. histograms: one column, or two against each other, for each of them;
+    none for `color_by`. bins: of every histogram, None for a number by the rule of `distributions.axis`.
     """
 
     color_by: tuple[str, ...] = ()
@@ -20,6 +21,8 @@ class Appearance:
     value_range: str | None = None
     precision: str | int = "shortest"
     quality: bool = False
+    histograms: tuple[tuple[str, ...], ...] = ()
+    bins: int | None = None
     picture: PictureOptions = field(default_factory=PictureOptions)
 
 

@@ -18,14 +18,10 @@ if TYPE_CHECKING:
 
 
 from .appearance import Appearance
+from .distributions import common_scale, sample, vertex_quantities
 
 # Default columns that colour a mesh: the first of these that was computed.
 COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
-
-
-def vertex_quantities(chosen: list[str]) -> dict[str, Quantity]:
-    """Vertex columns that were computed, each with its quantity."""
-    return {column: q for q in map(passes.quantity, chosen) for column in q.columns if q.on == "vertex"}
 
 
 def along_edges() -> dict[str, Quantity]:
@@ -33,7 +29,7 @@ def along_edges() -> dict[str, Quantity]:
     return {column: q for q in passes.quantities("edge") for column in q.columns if not q.vector}
 
 
-def colored_quantity(name: str, chosen: list[str]) -> Quantity:
+def colored_quantity(name: str, chosen: list[str], option: str = "--color-by") -> Quantity:
     """Quantity whose column colours the mesh or its edges; edge columns are computed with every table of edges."""
     columns = vertex_quantities(chosen)
     along = along_edges()
@@ -42,9 +38,9 @@ def colored_quantity(name: str, chosen: list[str]) -> Quantity:
     if name not in columns:
         offered = vertex_quantities([quantity.name for quantity in passes.quantities("vertex")])
         if name in offered:
-            raise UsageError(f"--color-by {name}: is not computed; -p core,{offered[name].name} adds it")
+            raise UsageError(f"{option} {name}: is not computed; -p core,{offered[name].name} adds it")
         way_out = suggestion(name, [*offered, *along], "`curvcli passes` lists them")
-        raise UsageError(f"--color-by {name}: no such column of vertices{way_out}")
+        raise UsageError(f"{option} {name}: no such column of vertices{way_out}")
     return columns[name]
 
 
@@ -60,8 +56,8 @@ def color_needs(name: str, chosen: list[str]) -> set[str]:
 
 def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
     """Column with its colours, the same in every output."""
-    from .pictures.colors import categorize, colorize
-    from .pictures.floor import edge_floor, floor
+    from .pictures.colors import colorize
+    from .pictures.floor import edge_floor
     from .pictures.legend import Colored
 
     quantity = colored_quantity(name, analysis.chosen)
@@ -71,19 +67,8 @@ def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
         cmap, value_range = appearance.cmap, appearance.value_range
         scale = colorize(values, cmap=cmap, value_range=value_range, signed=quantity.signed, floor=flat)
         return Colored(name, quantity, scale)
-    if quantity.labels:
-        return Colored(name, quantity, categorize(analysis.columns[name], quantity.labels))
-    values = np.where(analysis.surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
-    scale = colorize(
-        values,
-        cmap=appearance.cmap,
-        value_range=appearance.value_range,
-        signed=quantity.signed or quantity.vector,
-        ignore=analysis.surface.boundary,
-        floor=floor(analysis, quantity, values),
-    )
-    rigidity = analysis.conventions.rigidity
-    return Colored(name, quantity, scale, None if rigidity is None else rigidity.unit)
+    column = sample(analysis, name, areas=False)
+    return Colored(name, quantity, common_scale([column], appearance), column.energy)
 
 
 def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] | None:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..analysis.result import Result
     from ..errors import Notice
     from .appearance import Appearance
+    from .distributions import MeshSamples
 
 OutputKind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
 
@@ -74,12 +75,15 @@ class DocumentFormat(Format):
 
     write: takes a stream, the result, the appearance and the command line or None; returns a line for each column that
     a picture shows. camera: whether it draws the surface from a view. page: whether that is an image on a page of text
-    and lines.
+    and lines. panels: the number of its panels, None for one per column. several: draws several
+    meshes in one picture.
     """
 
     write: Callable[[BinaryIO, Result, Appearance, str | None], list[str]]
     camera: bool = False
     page: bool = False
+    panels: Callable[[Appearance, list[str]], int] | None = None
+    several: Callable[[BinaryIO, MeshSamples, Appearance], list[str]] | None = None
 
 
 _KINDS = get_args(OutputKind)

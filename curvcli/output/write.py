@@ -15,9 +15,11 @@ from ..support.memory import require_polars
 from .appearance import DEFAULT, Appearance
 from .atomic import Outputs
 from .coloring import color_needs, colored_quantity, colors
+from .distributions import histogram_columns, samples_of
 from .pictures.options import check_picture_options, parse_view
 from .registry import DocumentFormat, Format, MeshFormat, format_of, output_formats
-from .tables.columns import ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
+from .tables.columns import HISTOGRAM, ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
+from .tables.histogram import histogram_table
 
 if TYPE_CHECKING:
     from ..analysis.result import Result
@@ -48,13 +50,14 @@ def needs(formats: Iterable[Format], tables: Iterable[str], appearance: Appearan
 
     tables: kinds of tables. chosen: names of quantities, at each scale.
     """
-    names = {
-        quantity.name for kind in ("edge", "face") if f"{kind}s" in {*tables} for quantity in passes.quantities(kind)
-    }
+    tables = {*tables}
+    names = {quantity.name for kind in ("edge", "face") if f"{kind}s" in tables for quantity in passes.quantities(kind)}
     columns: set[str] = set()
     for format in formats:
         if format.shows is not None:
             columns.update(format.shows(appearance, chosen))
+    if HISTOGRAM in tables:
+        columns.update(histogram_columns(appearance, chosen))
     return names.union(*(color_needs(name, chosen) for name in columns)).difference(chosen)
 
 
@@ -85,7 +88,7 @@ def write_into(
         try:
             written = [
                 other.submit(_write_table, outputs, path, columns, suffix, appearance.precision, stop)
-                for path, columns, suffix in _tables(analysis, formats, tables, stream_format)
+                for path, columns, suffix in _tables(analysis, formats, tables, stream_format, appearance)
             ]
             for path, format in formats.items():
                 if isinstance(format, MeshFormat):
@@ -106,15 +109,25 @@ def write_into(
 
 
 def _tables(
-    analysis: Result, formats: Mapping[str, Format], others: Iterable[tuple[str, str]], stream_format: str | None
+    analysis: Result,
+    formats: Mapping[str, Format],
+    others: Iterable[tuple[str, str]],
+    stream_format: str | None,
+    appearance: Appearance,
 ) -> Iterator[tuple[str, Table, str]]:
     """Path, columns and suffix of every requested table."""
     for kind, path in others:
         suffix = format_of(path, name=stream_format if path == "-" else None, kinds=["table"]).suffix
-        yield path, TABLES[kind](analysis), suffix
+        yield path, _table(kind, analysis, appearance), suffix
     table_paths = [path for path, format in formats.items() if format.kind == "table"]
     columns = vertex_table(analysis) if table_paths else {}
     yield from ((path, columns, formats[path].suffix) for path in table_paths)
+
+
+def _table(kind: str, analysis: Result, appearance: Appearance) -> Table:
+    if kind == HISTOGRAM:
+        return histogram_table(samples_of(analysis, appearance), appearance)
+    return TABLES[kind](analysis)
 
 
 def _write_table(outputs: Outputs, path: str, columns: Table, suffix: str, precision: str | int, stop: Event) -> None:
@@ -138,7 +151,7 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
         if isinstance(output_format, DocumentFormat) and output_format.kind == "picture" and output_format.shows
     ]
     if pictures:
-        count = max(len(list(picture.shows(appearance, chosen))) for picture in pictures if picture.shows)
+        count = max(_panels(one, appearance, chosen) for one in pictures)
         check_picture_options(
             appearance.picture,
             count,
@@ -155,6 +168,7 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
         from .pictures.colors import colorize
 
         colorize(np.zeros(1), cmap=appearance.cmap, value_range=appearance.value_range)
+    check_histograms(appearance, chosen)
     for name in appearance.color_by:
         quantity = colored_quantity(name, chosen)
         lacking = sorted(
@@ -167,6 +181,26 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
                 f"--color-by {name}: a column of edges, for which {lacking[0]} has no colours; use a picture (.png), "
                 "a page (.html) or --table edges=PATH"
             )
+
+
+def _panels(format: DocumentFormat, appearance: Appearance, chosen: list[str]) -> int:
+    if format.panels is not None:
+        return format.panels(appearance, chosen)
+    return 0 if format.shows is None else len(list(format.shows(appearance, chosen)))
+
+
+def check_histograms(appearance: Appearance, chosen: list[str]) -> None:
+    """Errors: UsageError for a histogram of more than two columns, of edges, or of labels against a column."""
+    for columns in appearance.histograms:
+        named = f"--histogram {','.join(columns)}"
+        if len(columns) > 2:
+            raise UsageError(f"{named}: {len(columns)} columns, expected one, or two against each other")
+        for name in columns:
+            quantity = colored_quantity(name, chosen, "--histogram")
+            if quantity.on == "edge":
+                raise UsageError(f"{named}: {name} is a column of edges, expected columns of vertices")
+            if quantity.labels and len(columns) > 1:
+                raise UsageError(f"{named}: {name} has labels, expected numbers against each other")
 
 
 def _write_mesh(stream: BinaryIO, analysis: Result, format: MeshFormat, appearance: Appearance) -> list[Notice]:

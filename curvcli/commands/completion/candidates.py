@@ -128,6 +128,7 @@ def _topics() -> list[str]:
 _KNOWN: dict[tuple[str, str], Known] = {
     ("*", "passes"): _passes,
     ("*", "color_by"): _columns,
+    ("*", "histograms"): _columns,
     ("analyze", "stream_format"): _formats,
     ("analyze", "tables"): _tables,
     ("batch", "save"): _formats,

@@ -1,4 +1,4 @@
-"""Histograms of columns."""
+"""Histograms of columns, one column or two against each other."""
 
 from __future__ import annotations
 
@@ -10,14 +10,21 @@ from ..registry import DocumentFormat, register
 if TYPE_CHECKING:
     from ...analysis.result import Result
     from ..appearance import Appearance
+    from ..distributions import MeshSamples
 
 
 def shows(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:
-    """The columns asked for, or all numbers of vertices."""
-    from ..coloring import vertex_quantities
+    """The columns of all histograms."""
+    from ..distributions import histogram_columns
 
-    numbers = (name for name, q in vertex_quantities(chosen).items() if not q.vector and not q.labels)
-    return appearance.color_by or tuple(numbers)
+    return histogram_columns(appearance, chosen)
+
+
+def panels(appearance: Appearance, chosen: list[str]) -> int:
+    """The number of panels."""
+    from ..distributions import histograms
+
+    return len(histograms(appearance, chosen))
 
 
 def write_as(suffix: str, stream: BinaryIO, analysis: Result, appearance: Appearance, command: str | None) -> list[str]:
@@ -27,13 +34,16 @@ def write_as(suffix: str, stream: BinaryIO, analysis: Result, appearance: Appear
     require_pictures(False)
     # On another stack: frames that such imports keep refer to those below, and these to the analysis.
     import_apart("matplotlib.figure")
-    from ..coloring import colored
-    from ..pictures.histogram import write_histograms
-    from ..pictures.legend import sentence
+    from ..distributions import samples_of
 
-    columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
-    write_histograms(stream, analysis, columns, appearance.picture, appearance.value_range, suffix)
-    return [sentence(column, appearance.value_range, analysis.conventions.unit) for column in columns]
+    return write_several(suffix, stream, samples_of(analysis, appearance), appearance)
+
+
+def write_several(suffix: str, stream: BinaryIO, samples: MeshSamples, appearance: Appearance) -> list[str]:
+    """Draw the histograms of one mesh or several; a line for each column, with its range."""
+    from ..pictures.histogram import write_histograms
+
+    return write_histograms(stream, samples, appearance, suffix)
 
 
 for place, suffix in enumerate((".hist.png", ".hist.pdf", ".hist.svg")):
@@ -45,5 +55,7 @@ for place, suffix in enumerate((".hist.png", ".hist.pdf", ".hist.svg")):
             place=20 + place,
             write=partial(write_as, suffix),
             shows=shows,
+            panels=panels,
+            several=partial(write_several, suffix),
         )
     )

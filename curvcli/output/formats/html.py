@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def shows(appearance: Appearance, chosen: list[str]) -> list[str]:
     """All numbers, and the columns asked for."""
-    from ..coloring import vertex_quantities
+    from ..distributions import vertex_quantities
 
     numbers = [name for name, quantity in vertex_quantities(chosen).items() if not quantity.labels]
     return [*numbers, *appearance.color_by]

@@ -90,7 +90,7 @@ def colorize(
     else:
         rounded = None
     name = cmap if cmap is not None else DIVERGING if signed else SEQUENTIAL
-    gradient = _gradient(name)
+    gradient = color_map(name)
     undefined = _undefined(gradient)
     low, high = _range(values, value_range, signed, ignore)
     nulls = np.isnan(values)
@@ -117,7 +117,7 @@ def categorize(codes: NDArray[np.integer[Any]], names: tuple[str, ...]) -> Color
 
     codes: (V,) places in `names`, negative for none.
     """
-    gradient = _gradient(CATEGORICAL, CATEGORIES)
+    gradient = color_map(CATEGORICAL, CATEGORIES)
     undefined = _undefined(gradient)
     colors = np.concatenate([np.resize(gradient, (len(names), 3)), [undefined]]).astype(np.uint8)
     indices = np.where(codes < 0, len(names), codes)
@@ -210,7 +210,7 @@ def parse_range(value_range: str | None) -> tuple[float | None, float | None, fl
 
 
 @cache
-def _gradient(name: str, steps: int = _STEPS) -> NDArray[np.uint8]:
+def color_map(name: str, steps: int = _STEPS) -> NDArray[np.uint8]:
     """Colours of a map by its name in the `cmap` catalogue; a trailing `_r` reverses it."""
     from cmap import Catalog, Colormap
 

@@ -90,15 +90,15 @@ def mesh_name(analysis: Result) -> str:
     return os.path.basename(file.path) if file is not None and file.path not in (None, "-") else "mesh"
 
 
-def about(analysis: Result, columns: Sequence[Colored]) -> list[str]:
+def about(analysis: Result, quantities: Sequence[Quantity]) -> list[str]:
     """Mesh, and conventions that the columns shown depend on."""
     surface = analysis.surface
     vertices = counted(int(surface.referenced.sum()), "vertex", "vertices")
     shape = f"{mesh_name(analysis)}: {vertices}, {counted(surface.n_faces, 'face')}"
-    return [shape, *conventions(analysis, [column.quantity for column in columns])]
+    return [shape, *conventions(analysis, quantities)]
 
 
-def conventions(analysis: Result, quantities: list[Quantity]) -> list[str]:
+def conventions(analysis: Result, quantities: Sequence[Quantity]) -> list[str]:
     """Conventions that the columns shown depend on."""
     chosen = analysis.conventions
     choices = []

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from ...support.words import format_exponent
@@ -11,17 +14,51 @@ from .sheet import Box, LegendEntry, Sheet
 
 
 def draw_title(
-    sheet: Sheet, column: Colored, length: str | None, place: tuple[float, float], font: float, room: float
+    sheet: Sheet,
+    columns: Sequence[Colored],
+    length: str | None,
+    place: tuple[float, float],
+    font: float,
+    room: float,
 ) -> None:
-    """Draw name, symbol and unit of a column, as large as fits; the unit has the power of ten of the ticks."""
-    scale = column.scale
-    power = ticks(scale.low, scale.high, 5)[2] if scale.low is not None and scale.high is not None else 0
-    unit = " ".join(part for part in (f"10{format_exponent(power)}" if power else "", column.unit(length)) if part)
-    rest = "  ".join(part for part in (column.symbol, f"[{unit}]" if unit else "") if part)
-    width, gap = sheet.measure(column.name, font, bold=True), 0.8 * font
-    size = font * min(1.0, room / (width + gap + sheet.measure(rest, font)))
-    sheet.text(*place, column.name, size, bold=True)
-    sheet.text(place[0] + (width + gap) * size / font, place[1], rest, size)
+    """Draw names, symbols and units of one column or of two, as large as fits; a unit has the power of its ticks."""
+    texts: list[tuple[str, bool]] = []
+    for column in columns:
+        scale = column.scale
+        power = ticks(scale.low, scale.high, 5)[2] if scale.low is not None and scale.high is not None else 0
+        unit = " ".join(part for part in (f"10{format_exponent(power)}" if power else "", column.unit(length)) if part)
+        rest = "  ".join(part for part in (column.symbol, f"[{unit}]" if unit else "") if part)
+        texts += [("against", False)] * bool(texts) + [(column.name, True), (rest, False)]
+    gap = 0.8 * font
+    widths = [sheet.measure(text, font, bold) for text, bold in texts]
+    size = font * min(1.0, room / (sum(widths) + gap * (len(texts) - 1)))
+    left = place[0]
+    for (text, bold), width in zip(texts, widths, strict=True):
+        sheet.text(left, place[1], text, size, bold=bold)
+        left += (width + gap) * size / font
+
+
+def finish_axes(sheet: Sheet, axes: Any, tall: float, font: float, percent: bool = True) -> None:
+    """Format axes: few ticks, thin lines; percent: shares upwards, in per cent from 0."""
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+    axes.set_facecolor("none")
+    if percent:
+        axes.yaxis.set_major_locator(MaxNLocator(min(4, max(1, int(tall / (2.5 * font))))))
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda share, _: f"{100 * share:g} %"))
+        axes.set_ylim(bottom=0)
+    axes.tick_params(
+        colors=sheet.pale,
+        labelsize=0.8 * font * 0.72,
+        labelfontfamily="DejaVu Sans",
+        length=0.25 * font,
+        width=0.05 * font,
+        pad=0.2 * font,
+    )
+    for side, spine in axes.spines.items():
+        spine.set_visible(side in ("left", "bottom"))
+        spine.set_color(sheet.pale)
+        spine.set_linewidth(0.05 * font)
 
 
 def draw_bar(sheet: Sheet, column: Colored, box: Box, font: float) -> None:

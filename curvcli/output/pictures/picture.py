@@ -142,9 +142,8 @@ class _Page:
         sheet = self.sheet
         for place, column in enumerate(self.columns):
             left, top = self._origin(place)
-            draw_title(
-                sheet, column, self.unit, (left + self.margin, top + 1.1 * self.font), self.font, self.picture[0]
-            )
+            corner = (left + self.margin, top + 1.1 * self.font)
+            draw_title(sheet, [column], self.unit, corner, self.font, self.picture[0])
             at = top + self.above + self.picture[1] + 0.4 * self.font
             if column.scale.low is not None:
                 inset = 0.06 * self.picture[0]
@@ -169,4 +168,4 @@ class _Page:
             items.append(LegendEntry(f"{counted(crowded, 'edge')} of more than two faces", "line", _NONMANIFOLD))
         if any(map(self.cut, self.columns)):
             items.append(LegendEntry("creased: a vertex colours its own cell, flat faces between have the colour of 0"))
-        return [*items, *map(LegendEntry, about(analysis, self.columns))]
+        return [*items, *map(LegendEntry, about(analysis, [column.quantity for column in self.columns]))]

@@ -193,6 +193,17 @@ def _words(values: Sequence[str]) -> Labels:
     return Labels(np.array([number[value] for value in values], np.int32), names)
 
 
+def histograms(analysis: Result) -> Table:
+    """One row per bin of the histograms of all numbers of vertices."""
+    from ..appearance import DEFAULT
+    from ..distributions import samples_of
+    from .histogram import histogram_table
+
+    return histogram_table(samples_of(analysis, DEFAULT), DEFAULT)
+
+
+HISTOGRAM = "histogram"
+
 TABLES: dict[str, Callable[[Result], Table]] = {
     "vertices": vertex_table,
     "edges": edge_table,
@@ -201,4 +212,5 @@ TABLES: dict[str, Callable[[Result], Table]] = {
     "regions": region_table,
     "components": component_table,
     "intersections": intersection_table,
+    HISTOGRAM: histograms,
 }

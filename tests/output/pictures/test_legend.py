@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from curvcli.output.pictures.colors import categorize, colorize
-from curvcli.output.pictures.histogram import distribution
 from curvcli.output.pictures.legend import range_text, ticks
 from curvcli.support.words import typeset_number
 
@@ -71,19 +70,3 @@ def test_labels_have_colours_of_their_own() -> None:
     assert len({*map(tuple, scale.rgb.tolist())}) == 3
     assert tuple(scale.rgb[3]) == scale.undefined
     assert len(categorize(np.arange(40), tuple(map(str, range(40)))).categories) == 40
-
-
-def test_distributions_count_vertices_and_weigh_area() -> None:
-    values, areas = np.array([-5.0, 0, 0.5, 1, 1, 9, np.nan]), np.array([1.0, 1, 2, 3, 1, 2, 50])
-    found = distribution(values, areas, 0.0, 1.0, bins=2)
-    np.testing.assert_array_equal(found.edges, [0, 0.5, 1])
-    np.testing.assert_allclose(found.vertices, np.array([1, 1, 3, 1]) / 6)
-    np.testing.assert_allclose(found.area, np.array([1, 1, 6, 2]) / 10)
-
-
-@given(st.lists(FINITE, min_size=1, max_size=30), FINITE, FINITE)
-def test_every_defined_value_is_in_one_bin(values: list[float], one: float, two: float) -> None:
-    found = distribution(np.array(values), np.ones(len(values)), min(one, two), max(one, two))
-    assert found.vertices.sum() == pytest.approx(1)
-    assert found.vertices[0] == pytest.approx(np.mean(np.array(values) < min(one, two)))
-    assert found.vertices[-1] == pytest.approx(np.mean(np.array(values) > max(one, two)))
