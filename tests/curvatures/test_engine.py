@@ -31,8 +31,11 @@ VERTICES = (
     *("willmore_ring", "willmore_corrected", "willmore_fit", "K_sigma", "h_sigma"),
     *("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_curvature_index"),
 )
-EDGES = ("edge_length", "theta", "edge_H_vec", "H_sin", "H_theta", "H_tan", "kappa_across", "beta")
-FACES = ("area_of_face", "normal", "dirichlet")
+EDGES = ("edge_length", "theta", "edge_H_vec", "H_sin", "H_theta", "H_tan", "kappa_across", "beta", "delaunay_defect")
+FACES = (
+    *("area_of_face", "normal", "dirichlet", "angle_min", "angle_max", "aspect_ratio", "edge_ratio", "radius_ratio"),
+    "circumradius",
+)
 COLUMNS = (*VERTICES, *EDGES, *FACES)
 
 # Keys of the report; `volume` has no column.

@@ -116,6 +116,7 @@ def length_exponents() -> dict[str, int]:
         "dirichlet": 2,
         **dict.fromkeys(("K", "kappa_g", "K_plus", "K_minus", "K_abs", "willmore", "willmore_hks"), 0),
         **dict.fromkeys(("willmore_perp", "willmore_normal", "willmore_conformal"), 0),
+        **dict.fromkeys(("helfrich", "reduced_volume", "reduced_area_difference"), 0),
     }
 
 
@@ -142,4 +143,11 @@ def totals(name: str) -> dict[str, Any]:
         "dirichlet": g["area"],
     }
     sizes = ("H_theta", "H_sin", "H_tan")
-    return found | {key: math.fsum(x for x in lengths[key] if x == x) if orientable else None for key in sizes}
+    found |= {key: math.fsum(x for x in lengths[key] if x == x) if orientable else None for key in sizes}
+    vesicle = known["topology"]["closed"] and orientable and known["topology"]["n_components"] == 1
+    radius = math.sqrt(found["area"] / (4 * math.pi))
+    return found | {
+        "helfrich": found["willmore"] / 2,
+        "reduced_volume": found["volume"] / (4 / 3 * math.pi * radius**3) if vesicle else None,
+        "reduced_area_difference": found["H_theta"] / (8 * math.pi * radius) if vesicle else None,
+    }
