@@ -14,7 +14,7 @@ from ..support.blocks import slices
 
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
-    from .stretch import Stretch
+    from .map_differential import Stretch
 
 
 # Points of a plane are this many units of rounding of their coordinates away from it.

@@ -17,9 +17,9 @@ from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
 from ..support.arrays import Floats
 from ..support.words import counted
+from .map_differential import Stretch, stretch
 from .map_orientation import orientation
 from .notices import out_of_range
-from .stretch import Stretch, stretch
 from .totals import lost
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from ..curvatures.derived import DerivedTotal, compute_derived
 from ..curvatures.quantity import AT_SCALE, Quantity
 from ..curvatures.registry import passes
 from ..mesh.counts import classify, count_groups
-from ..mesh.enclosed import volumes
+from ..mesh.enclosed_volume import volumes
 from ..mesh.groups import Groups, Segments
 from ..mesh.scale import DEFAULTS, EstimatorSettings
 from ..mesh.surface import Surface

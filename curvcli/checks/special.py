@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..mesh.counts import classify, count_groups
-from ..mesh.enclosed import volumes
+from ..mesh.enclosed_volume import volumes
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, LOST, cross, dot

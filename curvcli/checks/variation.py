@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh.counts import count_groups
-from ..mesh.enclosed import volumes
+from ..mesh.enclosed_volume import volumes
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON

@@ -15,8 +15,8 @@ from ..errors import FAILED_CHECK, OK, OutputError, UsageError, worst
 from ..loading.limits import parse_weld
 from ..output.registry import listed
 from . import options
-from .bounds import bounded
-from .configured import configuration
+from .config_notes import configuration
+from .limits import bounded
 from .meshes import each_mesh, input_of
 from .outputs import one_stdout, print_report, stdin_once, table_option
 from .settings import merge_settings, setting

@@ -15,7 +15,7 @@ from ..errors import UsageError, worst
 from ..loading.limits import parse_weld
 from ..support.words import counted
 from . import options
-from .configured import configuration
+from .config_notes import configuration
 from .settings import merge_settings, setting
 from .talk import say
 

@@ -11,8 +11,8 @@ import click
 from ..errors import LackingError, worst
 from ..loading.limits import parse_weld
 from . import options
-from .bounds import bounded
-from .configured import configuration
+from .config_notes import configuration
+from .limits import bounded
 from .meshes import each_mesh, input_of
 from .outputs import stdin_once
 from .settings import merge_settings, setting

@@ -11,8 +11,8 @@ from click.core import ParameterSource
 from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
-from .bounds import bounded
-from .configured import configuration
+from .config_notes import configuration
+from .limits import bounded
 from .meshes import input_of
 from .outputs import one_stdout, print_report, tables_and_reports
 from .settings import setting
@@ -133,7 +133,7 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     if a == "-" == b:
         raise click.UsageError("A and B cannot both be stdin; give one of them a path", context)
     if not as_map:
-        from .comparing import compare
+        from .compare_values import compare
 
         given = {name for name in _CONVENTIONS if context.get_parameter_source(name) is not ParameterSource.DEFAULT}
         del settings["tables"]

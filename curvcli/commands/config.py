@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from ..errors import UsageError
-from .nearest import SHARED, search
+from .config_search import SHARED, search
 
 # Keys under which the context keeps the configuration file that applies, and its tables.
 META = "curvcli.configuration"

@@ -10,7 +10,7 @@ import click
 from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import options
-from .bounds import bounded
+from .limits import bounded
 from .meshes import input_of
 from .outputs import one_stdout, print_report, tables_and_reports
 
@@ -99,7 +99,7 @@ def measure(
     from ..output.atomic import Outputs
     from ..output.tables.write import parse_precision
     from ..report.model import as_dict
-    from .configured import configuration
+    from .config_notes import configuration
 
     specs = tables_and_reports(outputs, tables, TABLES, stream_format)
     to_stdout = one_stdout([spec.path for spec in specs], as_json, get, stream_format)

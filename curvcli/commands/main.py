@@ -27,7 +27,7 @@ from ..errors import (
 from ..support.memory import NUMPY, is_bounded, is_out_of_memory, require
 from .allocation import keep_memory
 from .config import META, configure
-from .configured import with_configuration
+from .config_notes import with_configuration
 from .deferred import defer_imports
 from .names import COMMANDS, COMPLETE, UNCONFIGURED
 from .signals import Ending, Handler

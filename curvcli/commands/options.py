@@ -33,7 +33,7 @@ class Finite(click.FloatRange):
 def _verbosity(context: click.Context, option: click.Parameter, value: int) -> int:
     if value and not context.resilient_parsing:
         from .config import META
-        from .configured import print_configuration
+        from .config_notes import print_configuration
 
         if META in context.meta:
             print_configuration(context)

@@ -13,8 +13,8 @@ from typing import Any, BinaryIO
 
 from ..errors import InputError
 from ..support.sinks import wait_for
+from .file_state import changed, rewritten, stamp, unreadable
 from .hints import of_folder, of_missing
-from .stamps import changed, rewritten, stamp, unreadable
 
 _CHUNK = 1 << 24
 _FREE_INFLATION = 1 << 26

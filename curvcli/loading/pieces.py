@@ -8,7 +8,7 @@ from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
 
-from .stamps import Stamp, changed, rewritten, stamp, unreadable
+from .file_state import Stamp, changed, rewritten, stamp, unreadable
 
 _BUFFERS = 3  # one is read or parsed, the others are hashed
 

@@ -46,7 +46,7 @@ def colored_quantity(name: str, chosen: list[str], option: str = "--color-by") -
 
 def color_needs(name: str, chosen: list[str]) -> set[str]:
     """The quantities that the colours of a column are made from."""
-    from .pictures.floor import floor_needs
+    from .pictures.rounding_floor import floor_needs
 
     quantity = colored_quantity(name, chosen)
     if quantity.on == "edge":
@@ -57,8 +57,8 @@ def color_needs(name: str, chosen: list[str]) -> set[str]:
 def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
     """Column with its colours, the same in every output."""
     from .pictures.colors import colorize
-    from .pictures.floor import edge_floor
     from .pictures.legend import Colored
+    from .pictures.rounding_floor import edge_floor
 
     quantity = colored_quantity(name, analysis.chosen)
     if quantity.on == "edge":

@@ -32,7 +32,7 @@ ALLOWED = {
     ("curvcli/batch/processes.py", "subprocess"),
 }
 # A command with a bound on its time or memory goes on in a child of itself, which its parent can end.
-FORKS = {("curvcli/commands/bounds.py", "os.fork")}
+FORKS = {("curvcli/commands/limits.py", "os.fork")}
 HARMLESS = {("urllib.request", "url2pathname")}  # rewrites a string
 
 

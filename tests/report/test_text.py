@@ -14,7 +14,7 @@ import curvcli
 from curvcli.api import Analysis
 from curvcli.checks import Check
 from curvcli.report.terminal import summary as text
-from curvcli.report.terminal.fitting import fitting, plain_table
+from curvcli.report.terminal.tables import fitting, plain_table
 from tests.helpers.meshes import Mesh, of_sample
 
 

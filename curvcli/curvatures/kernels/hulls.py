@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...mesh.signs import exact_sides, sides
+from ...mesh.exact_signs import exact_sides, sides
 from ...mesh.triangles import cross, dot
 from ...support.arrays import Floats, Mask
 

@@ -19,11 +19,11 @@ from ...report.quantities import unmarked
 from ...support.words import escape_text
 from ..pictures.camera import frame
 from ..pictures.options import VIEWS, PictureOptions, parse_view
-from .bend import bend, cell, in_cells
 from .columns import PageColumn, columns, hex_color
 from .display import Display, simplified, whole
-from .engine import engine
+from .edges import bend, cell, in_cells
 from .packing import differences, packed, scaled, steps
+from .three_js import engine
 
 if TYPE_CHECKING:
     from jinja2 import Template

@@ -9,7 +9,7 @@ from rich.table import Table
 
 from ...support.words import format_rounded
 from .console import escape, report_console, show_configuration
-from .fitting import add_numbers, fitting, plain_table, roomy_table
+from .tables import add_numbers, fitting, plain_table, roomy_table
 
 if TYPE_CHECKING:
     from ..accuracy import Accuracy

@@ -14,7 +14,7 @@ from ...support.words import counted
 from ..check.lines import FIRST, MOST, WARNINGS, all_failures, by_name, meshes_pass, scopes, warning, warnings
 from ..check.model import ERROR, FAIL, IDENTITY, INPUT, NOT_APPLICABLE, PASS, CheckedMesh, CheckReport, Outcome
 from .console import MARKS, Console, escape, report_console, show_configuration
-from .fitting import add_numbers, fitting, plain_table, roomy_table
+from .tables import add_numbers, fitting, plain_table, roomy_table
 
 # Minimum width of a column of sentences, or of paths.
 _MESSAGE = 24

@@ -10,7 +10,7 @@ from rich.table import Table
 from ...support.words import format_rounded
 from ..compare.model import as_text
 from .console import escape, report_console, show_configuration
-from .fitting import fitting, plain_table, roomy_table
+from .tables import fitting, plain_table, roomy_table
 
 if TYPE_CHECKING:
     from ..compare.model import Comparison

@@ -10,7 +10,7 @@ from ...checks.base import Check
 from ...support.words import counted, format_rounded
 from ..curves import CurveReport, CurveRow
 from .console import MARKS, escape, report_console, show_configuration
-from .fitting import add_numbers, fitting, plain_table, roomy_table, with_sentences
+from .tables import add_numbers, fitting, plain_table, roomy_table, with_sentences
 
 # Curves shown without -v.
 SHOWN = 20

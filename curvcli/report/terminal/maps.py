@@ -10,7 +10,7 @@ from rich.table import Table
 from ...support.words import format_rounded
 from ..maps import Harmonic, MapReport, Range, model
 from .console import MARKS, escape, report_console, show_configuration
-from .fitting import fitting, with_sentences
+from .tables import fitting, with_sentences
 
 if TYPE_CHECKING:
     from ...analysis.maps import SurfaceMap

@@ -10,7 +10,7 @@ from rich.table import Table
 from ..advice import as_text
 from ..quantities import facts, facts_named, parameter_sentence, public
 from .console import escape, report_console
-from .fitting import fitting, plain_table
+from .tables import fitting, plain_table
 
 # Minimum width of a column of formulas.
 _FORMULA = 24

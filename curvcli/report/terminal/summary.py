@@ -15,7 +15,7 @@ from ..conclusion import conclusion, holds
 from ..model import Report
 from ..phrases import failing_first, shape
 from .console import MARKS, escape, report_console, show_configuration
-from .fitting import add_numbers, fitting, plain_table
+from .tables import add_numbers, fitting, plain_table
 
 if TYPE_CHECKING:
     from ...analysis.result import Result

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import curvcli
-from curvcli.output.html import engine as engines
 from curvcli.output.html import page as pages
-from curvcli.output.html.engine import engine
+from curvcli.output.html import three_js as engines
+from curvcli.output.html.three_js import engine
 from curvcli.output.pictures.camera import frame
 from tests.helpers.meshes import grid, of_sample, tetrahedron
 from tests.output.html.pages import HOSTILE, labelled, page_of, parsed

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from ..errors import FAILED_CHECK, OK, UsageError
 from ..loading.limits import parse_weld
 from ..report.compare.values import Difference, Tolerance, compare_reports, selector
-from .against_exact import accuracy, is_exact
+from .compare_exact import accuracy, is_exact
+from .compare_inputs import LoadedSide, both_sides, kind_of, stored_side
 from .outputs import one_stdout, print_report
 from .settings import merge_settings
-from .sides import LoadedSide, both_sides, kind_of, stored_side
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
@@ -53,7 +53,7 @@ def compare(
     from ..report.model import as_dict, encode
     from ..report.terminal import accuracy as error_summary
     from ..report.terminal import compare as difference_summary
-    from .configured import configuration
+    from .config_notes import configuration
 
     formats = [format_of(p, name=stream_format if p == "-" else None, kinds=("table", "report")) for p in outputs]
     to_stdout = one_stdout(outputs, as_json, get, stream_format)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from curvcli.mesh.signs import exact_sides
+from curvcli.mesh.exact_signs import exact_sides
 
 
 def by_fractions(rows: NDArray[np.float64], bits: int | None = None) -> int:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, UsageError
 from ..support.words import counted, format_rounded
-from .sides import LoadedSide, analysed_side
+from .compare_inputs import LoadedSide, analysed_side
 
 if TYPE_CHECKING:
     from ..report.accuracy import Accuracy
