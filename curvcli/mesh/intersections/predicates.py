@@ -10,7 +10,7 @@ import numpy as np
 
 from ...support.arrays import Floats, Sign
 from ...support.compensated import two_product
-from ..signs import loses_digits, sign_of_sum, terms_of_determinant
+from ..exact_signs import loses_digits, sign_of_sum, terms_of_determinant
 from ..triangles import EPSILON, cross, dot
 
 # Subtractions, products and sums have an error below 4ε times the sum of the absolute terms.

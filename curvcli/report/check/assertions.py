@@ -21,7 +21,7 @@ from ...mesh.scale import EstimatorSettings, Scale
 from ...support.words import format_number, format_rounded, suggestion
 from ..quantities import public
 from .measured import Measured, StatisticOfColumn, values_of_parts
-from .scopes import AssertedScope, Part, parse_scope
+from .scopes import AssertedScope, ScopedStatistics, parse_scope
 
 OPERATORS: dict[str, Callable[[Any, float], Any]] = {
     "<=": operator.le,
@@ -62,14 +62,14 @@ class Assertion:
         """Text of the assertion as after --assert."""
         return f"{self.scope.prefix}{self.measured.call} {self.comparison} {format_number(self.bound)}"
 
-    def judge(self, analysis: Result, parts: dict[str, Part] | None = None) -> list[AssertionVerdict]:
+    def judge(self, analysis: Result, parts: dict[str, ScopedStatistics] | None = None) -> list[AssertionVerdict]:
         """Verdict on each group; of very many groups, those that fail and one for the others.
 
         parts: the statistics of earlier assertions, by kind of scope.
         Errors: LackingError for a region that the mesh has not; UsageError for a value that is not computed.
         """
         known = {} if parts is None else parts
-        part = known.setdefault(self.scope.kind, Part(analysis, self.scope.kind))
+        part = known.setdefault(self.scope.kind, ScopedStatistics(analysis, self.scope.kind))
         chosen = self.scope.chosen(part)
         values = self.measured.values(part)[chosen]
         with np.errstate(invalid="ignore"):
@@ -83,7 +83,7 @@ class Assertion:
             verdicts.append(AssertionVerdict(True, None, message, f"{self.scope.kind}s"))
         return verdicts
 
-    def _verdict(self, part: Part, group: int, value: float, held: bool) -> AssertionVerdict:
+    def _verdict(self, part: ScopedStatistics, group: int, value: float, held: bool) -> AssertionVerdict:
         scope, call = part.groups.scope(group), self.measured.call
         if np.isnan(value):
             return AssertionVerdict(False, None, f"{call} is undefined: {self.measured.undefined(part, group)}", scope)

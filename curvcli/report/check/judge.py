@@ -22,7 +22,7 @@ from ..model import CONVENTIONS
 from . import assertions
 from .assertions import Assertion
 from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, Outcome, Rule
-from .scopes import Part
+from .scopes import ScopedStatistics
 
 READABLE = "The mesh can be read and is a surface"
 
@@ -159,7 +159,7 @@ def _of_requirement(required: Required, analysis: Result, given: Mapping[str, An
 
 def _of_assertions(chosen: Iterable[Assertion], analysis: Result) -> Iterator[Outcome]:
     """Outcomes of every assertion on the whole, or on each of its regions or components."""
-    parts: dict[str, Part] = {}
+    parts: dict[str, ScopedStatistics] = {}
     for assertion in chosen:
         for verdict in assertion.judge(analysis, parts):
             status, scope = PASS if verdict.held else FAIL, escape_text(verdict.scope)

@@ -18,7 +18,7 @@ from ...mesh.groups import Segments
 from ...support.arrays import Floats
 from ..build import topology_of
 from ..model import Topology
-from .scopes import Part
+from .scopes import ScopedStatistics
 
 _PLURALS = {"vertex": "vertices", "edge": "edges", "face": "faces"}
 _EXTREMES = ("min", "max", "absmax")
@@ -34,9 +34,9 @@ class Measured(Protocol):
     def call(self) -> str: ...
     @property
     def passes(self) -> list[str]: ...
-    def values(self, part: Part) -> Floats: ...
-    def undefined(self, part: Part, group: int) -> str: ...
-    def place(self, part: Part, group: int) -> str: ...
+    def values(self, part: ScopedStatistics) -> Floats: ...
+    def undefined(self, part: ScopedStatistics, group: int) -> str: ...
+    def place(self, part: ScopedStatistics, group: int) -> str: ...
 
 
 @dataclass(frozen=True)
@@ -61,10 +61,10 @@ class StatisticOfColumn:
     def _axis(self) -> int | None:
         return "xyz".index(self.column[-1]) if self.quantity.vector else None
 
-    def _grouped(self, part: Part) -> tuple[GroupedColumn, Floats]:
+    def _grouped(self, part: ScopedStatistics) -> tuple[GroupedColumn, Floats]:
         return part.column(self.quantity, self._axis)
 
-    def values(self, part: Part) -> Floats:
+    def values(self, part: ScopedStatistics) -> Floats:
         """(G,) statistic of each group; NaN where it is undefined or beyond the range of doubles."""
         grouped, _ = self._grouped(part)
         values = grouped.statistic(self.statistic).astype(np.float64)
@@ -72,14 +72,14 @@ class StatisticOfColumn:
             values = np.where(grouped.count > 0, values, np.nan)
         return np.where(np.isfinite(values), values, np.nan)
 
-    def undefined(self, part: Part, group: int) -> str:
+    def undefined(self, part: ScopedStatistics, group: int) -> str:
         """Reason for a missing statistic."""
         on = self.quantity.on
         if self._grouped(part)[0].count[group]:
             return f"it is beyond the range of doubles, or its {_PLURALS[on]} have no area"
         return f"no {on} has a value"
 
-    def place(self, part: Part, group: int) -> str:
+    def place(self, part: ScopedStatistics, group: int) -> str:
         """Place of an extreme value."""
         if self.statistic not in _EXTREMES:
             return ""
@@ -108,7 +108,7 @@ class ValueOfPart:
         """The quantities that it is computed from."""
         return list(self.needs)
 
-    def values(self, part: Part) -> Floats:
+    def values(self, part: ScopedStatistics) -> Floats:
         """(G,) value of each group, NaN where undefined.
 
         Errors: UsageError for a value that this analysis does not compute.
@@ -118,16 +118,16 @@ class ValueOfPart:
             raise UsageError(f"assertion on {self.key}: it is not computed; a parameter of its pass has to be set")
         return values
 
-    def undefined(self, part: Part, group: int) -> str:
+    def undefined(self, part: ScopedStatistics, group: int) -> str:
         """Reason for a missing value."""
         return f"it is null in the report of the {part.groups.kind}"
 
-    def place(self, part: Part, group: int) -> str:
+    def place(self, part: ScopedStatistics, group: int) -> str:
         """No place: the value is that of all elements."""
         return ""
 
 
-def _topology(part: Part, key: str) -> Floats:
+def _topology(part: ScopedStatistics, key: str) -> Floats:
     counts = topology_of(part.analysis, part.groups)[key]
     return np.array([np.nan if count is None else count for count in counts], np.float64)
 
@@ -139,20 +139,20 @@ def _component(values: dict[str, Floats], key: str) -> Floats | None:
     return values[stem][:, "xyz".index(axis)] if stem in values and axis in "xyz" else None
 
 
-def _total(part: Part, key: str) -> Floats | None:
+def _total(part: ScopedStatistics, key: str) -> Floats | None:
     return _component(part.analysis.totals_of(part.groups), key)
 
 
-def _share(part: Part, key: str) -> Floats | None:
+def _share(part: ScopedStatistics, key: str) -> Floats | None:
     return _component(part.whole.shares_of_regions(), key.removeprefix("share_"))
 
 
-def _fraction(part: Part, key: str) -> Floats | None:
+def _fraction(part: ScopedStatistics, key: str) -> Floats | None:
     fractions = area_fractions(part.analysis.surface, part.groups, part.analysis.columns)
     return fractions.get(key.removeprefix("fractions_"))
 
 
-def _box(part: Part, key: str) -> Floats:
+def _box(part: ScopedStatistics, key: str) -> Floats:
     """Bounding box of the referenced vertices, in the file's unit."""
     surface = part.analysis.surface
     what, _, axis = key.partition("_")
@@ -172,7 +172,7 @@ def _box(part: Part, key: str) -> Floats:
         return {"min": low, "max": high, "extent": high - low}[what]
 
 
-_SECTIONS: dict[str, Callable[[Part, str], Floats | None]] = {
+_SECTIONS: dict[str, Callable[[ScopedStatistics, str], Floats | None]] = {
     "topology": _topology,
     "total": _total,
     "share": _share,

@@ -36,7 +36,7 @@ class AssertedScope:
             return ""
         return f"each {self.kind}: " if self.label is None else f"{self.kind}({self.label}): "
 
-    def chosen(self, part: Part) -> list[int]:
+    def chosen(self, part: ScopedStatistics) -> list[int]:
         """Numbers of its groups.
 
         Errors: LackingError for a region or a component that the mesh has not, with the nearest.
@@ -70,7 +70,7 @@ def parse_scope(text: str) -> tuple[AssertedScope, str]:
     return AssertedScope(), text
 
 
-class Part:
+class ScopedStatistics:
     """The analysis and the groups of one kind of scope, with the statistics computed so far."""
 
     def __init__(self, analysis: Result, kind: str) -> None:

@@ -23,7 +23,7 @@ _NO_UNIT = "millimeter"
 
 
 @dataclass(frozen=True)
-class Part:
+class ObjectMesh:
     """The mesh of an object. material: (F,) number of each triangle's material, -1 for none."""
 
     points: NDArray[np.float64]
@@ -37,7 +37,7 @@ class Model:
 
     unit: str = _NO_UNIT
     names: dict[str, str] = field(default_factory=dict)
-    parts: dict[str, Part] = field(default_factory=dict)
+    parts: dict[str, ObjectMesh] = field(default_factory=dict)
     components: dict[str, list[tuple[str, str | None, Matrix]]] = field(default_factory=dict)
     items: list[tuple[str, str | None, Matrix, str | None]] = field(default_factory=list)
 
@@ -124,7 +124,7 @@ def _palette(root: Element) -> dict[tuple[str, str], str]:
 
 def _part(
     owner: Element, mesh: Element, blocks: list[bytes], palette: dict[tuple[str, str], str], materials: dict[str, int]
-) -> Part:
+) -> ObjectMesh:
     text = {_local(each): blocks[int(each.get("block", "0"))] for each in mesh if each.get("block") is not None}
     xyz, _ = read_rows(text.get("vertices", b""), "vertex", "xyz", (), np.float64)
     columns, chosen = read_rows(text.get("triangles", b""), "triangle", ("v1", "v2", "v3"), _OPTIONAL, np.int32)
@@ -143,4 +143,4 @@ def _part(
         pairs = zip(chosen["pid"], chosen["p1"], strict=True)
         codes[:] = [own[0] if pid is p1 is None else number(pid or own[1], p1 or own[2]) for pid, p1 in pairs]
     points: NDArray[Any] = np.stack(xyz, axis=1).astype(np.float64, copy=False)
-    return Part(points, corners.reshape(-1, 3), codes)
+    return ObjectMesh(points, corners.reshape(-1, 3), codes)

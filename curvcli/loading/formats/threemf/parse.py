@@ -8,7 +8,7 @@ from ....errors import InputError
 from ....mesh.file import MeshFile
 from ...copies import Matrix, Runs, check_copies, distinct, label_faces, label_runs, product, transformed, turned
 from ...pieces import Pieces
-from .model import Model, Part, parse_model
+from .model import Model, ObjectMesh, parse_model
 from .package import Package
 
 _DEEPEST = 100
@@ -27,7 +27,7 @@ def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     materials: dict[str, int] = {}
     root = package.root()
     models = {_key(root): parse_model(package.model(root), root, materials)}
-    placed: list[tuple[Part, Matrix]] = []
+    placed: list[tuple[ObjectMesh, Matrix]] = []
     runs: Runs = []
     names: list[str] = []
     vertices = faces = copies = 0
@@ -66,7 +66,7 @@ def _key(path: str) -> str:
 
 
 def _assembled(
-    root: Model, placed: list[tuple[Part, Matrix]], runs: Runs, names: list[str], materials: list[str]
+    root: Model, placed: list[tuple[ObjectMesh, Matrix]], runs: Runs, names: list[str], materials: list[str]
 ) -> MeshFile:
     begins = np.cumsum([0, *(len(part.points) for part, _ in placed)]).tolist()
     points = np.concatenate([transformed(part.points, matrix) for part, matrix in placed])
