@@ -61,8 +61,8 @@ def sample(analysis: Result, name: str, mesh: str | None = None, *, areas: bool 
 
     mesh: its name, by default that of its file. areas: false where only the colours count.
     """
-    from .pictures.floor import floor
     from .pictures.legend import mesh_name
+    from .pictures.rounding_floor import floor
 
     quantity, surface = vertex_quantities(analysis.chosen)[name], analysis.surface
     about = mesh or mesh_name(analysis), name, quantity
