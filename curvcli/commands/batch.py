@@ -61,7 +61,7 @@ if TYPE_CHECKING:
     help="Stop a mesh that needs more memory than this. Linux only.",
 )
 @options.passes
-@click.option("--regions", metavar="groups|objects|materials|PROPERTY", help="Labels of faces within each mesh.")
+@click.option("--regions", metavar="groups|objects|materials|solids|PROPERTY", help="Labels within each mesh.")
 @options.stat
 @options.reading
 @options.estimating

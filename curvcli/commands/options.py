@@ -118,8 +118,8 @@ weld = click.option(
 )
 regions = click.option(
     "--regions",
-    metavar="FILE|groups|objects|materials|PROPERTY",
-    help="Labels of the faces: totals and checks are also computed per region.",
+    metavar="FILE|groups|objects|materials|solids|PROPERTY",
+    help="Labels of faces or vertices: totals and checks are also computed per region.",
 )
 
 stat = click.option(

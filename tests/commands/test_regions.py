@@ -117,10 +117,10 @@ GARBAGE = {
     "empty.npy": (b"", "not a .npy file"),
     "table.npy": (npy("{'descr': '<i8', 'fortran_order': False, 'shape': (3, 1)}\n"), "shape (3, 1)"),
     "words.npy": (npy("{'descr': '<U2', 'fortran_order': False, 'shape': (3,)}\n"), "<U2"),
-    "empty.txt": (b"", "0 labels, expected 3 (polygons) or 4 (triangles)"),
-    "many.txt": (b"1\n" * 5, "5 labels, expected 3 (polygons) or 4 (triangles)"),
+    "empty.txt": (b"", "0 labels, expected 3 (polygons), 4 (triangles) or 6 (vertices)"),
+    "many.txt": (b"1\n" * 5, "5 labels, expected 3 (polygons), 4 (triangles) or 6 (vertices)"),
     "word.csv": (b"label\n1\ntwo\n2\n", "line 3: 'two'"),
-    "columns.csv": (b"face,label\n0,1\n1,2\n2,2\n", "line 2: '0,1'"),
+    "columns.csv": (b"0,1\n1,2\n2,2\n", "a table without a header"),
     "half.txt": (b"1\n2.5\n2\n", "label 2.5 of face 1"),
     "nan.txt": (b"1\n2\nnan\n", "label nan of face 2"),
     "huge.txt": (b"1\n1e300\n2\n", "label 1e+300 of face 1"),
@@ -179,10 +179,10 @@ def test_a_table_of_regions_needs_regions(within: Run) -> None:
 
 def test_one_file_of_labels_for_two_meshes(within: Run) -> None:
     """The one it does not fit is refused, the other is done."""
-    Path("labels.txt").write_text("1\n2\n2\n")
+    Path("labels.txt").write_text("1\n2\n2\n2\n")
     Path("single.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     ended = within("analyze", "single.obj", "plain.obj", "--regions", "labels.txt", "-q", "-o", "{stem}.csv")
-    assert (ended.code, ended.complaint) == (3, "single.obj: labels.txt: 3 labels, expected 1")
+    assert (ended.code, ended.complaint) == (3, "single.obj: labels.txt: 4 labels, expected 1 (faces) or 3 (vertices)")
     assert not os.path.exists("single.csv")
     assert os.path.exists("plain.csv")
 

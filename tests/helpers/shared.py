@@ -19,3 +19,11 @@ SHARED = _find()
 needs_shared = pytest.mark.skipif(
     SHARED is None, reason="no folder shared/meshes with an index.csv beside the repository"
 )
+
+
+def case(name: str) -> str:
+    """The path of a file of `shared/cases`; the test is skipped without it."""
+    path = None if SHARED is None else SHARED / "cases" / name
+    if path is None or not path.is_file():
+        pytest.skip(f"no {name} in shared/cases")
+    return str(path)

@@ -13,7 +13,7 @@ from curvcli.errors import InputError
 from curvcli.loading.formats.ply.parse import parse_ply
 from curvcli.loading.formats.stl.parse import parse_stl
 from curvcli.loading.pieces import Pieces
-from curvcli.mesh.file import MeshFile
+from curvcli.mesh.file import Labels, MeshFile
 
 PARSERS = {"ply": parse_ply, "stl": parse_stl}
 
@@ -59,6 +59,9 @@ def _same(one: MeshFile, other: MeshFile) -> None:
         a, b = getattr(one, each.name), getattr(other, each.name)
         pairs = [(a[key], b[key]) for key in a | b] if isinstance(a, dict) else [(a, b)]
         for left, right in pairs:
+            if isinstance(left, Labels):
+                assert left.names == right.names
+                left, right = left.codes, right.codes
             assert_array_equal(left, right)
             if isinstance(left, np.ndarray):
                 assert left.dtype == right.dtype

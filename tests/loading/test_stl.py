@@ -200,3 +200,21 @@ def test_a_misspelt_keyword_is_refused_with_its_line(wrong: str, place: str) -> 
     with pytest.raises(InputError, match=f"`{wrong}` found, `{wrong[:3]}") as error:
         parsed("stl", re.sub(wrong[:3] + r"\w+", wrong, data, count=1).encode())
     assert error.value.place == place
+
+
+def test_solids_are_labels() -> None:
+    facet = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+    names = [b"Inlet a", b"", b"walls", b"walls", b"empty"]
+    text = b"".join(
+        b"solid " + name + b"\n" + facet * count + b"endsolid\n"
+        for name, count in zip(names, (1, 2, 1, 3, 0), strict=True)
+    )
+    for data in (text, text.replace(b"\nvertex", b" vertex").replace(b"\nouter", b" outer")):
+        labels = parsed("stl", data).polygon_labels["solids"]
+        assert [labels.names[code] for code in labels.codes] == [
+            "Inlet a",
+            *["solid 2"] * 2,
+            "walls 3",
+            *["walls 4"] * 3,
+        ]
+    assert parsed("stl", binary_stl(TETRAHEDRON)).polygon_labels == {}

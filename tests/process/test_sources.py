@@ -20,7 +20,7 @@ import trimesh
 from curvcli.errors import InputError
 from curvcli.loading import content
 from curvcli.loading.content import read_limited, read_stream
-from curvcli.loading.labels import read_labels
+from curvcli.loading.label_files.read import read_labels
 from curvcli.loading.pieces import Pieces
 from curvcli.loading.tables import read_stored_table
 from curvcli.report.compare.stored import read_report
@@ -201,7 +201,7 @@ def test_labels_that_are_cut_off_while_they_are_read(tmp_path: Path) -> None:
     np.save(path, np.arange(1 << 21))
     program = (
         "import io, os, sys\n"
-        "from curvcli.loading import content; from curvcli.loading.labels import read_labels\n"
+        "from curvcli.loading import content; from curvcli.loading.label_files.read import read_labels\n"
         "class Cut(io.FileIO):\n"
         "    def read(self, size=-1): os.truncate(sys.argv[1], 4096); return super().read(size)\n"
         "content.io.FileIO = Cut\n"

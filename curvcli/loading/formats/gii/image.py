@@ -5,7 +5,7 @@ from __future__ import annotations
 import binascii
 import math
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 from xml.parsers.expat import ExpatError
 
@@ -41,6 +41,10 @@ class DataArray:
     values: NDArray[Any]
     name: str
     transformed: bool
+
+    def flat(self) -> DataArray:
+        """The same array in one dimension."""
+        return replace(self, values=self.values.reshape(-1))
 
 
 @dataclass(frozen=True, eq=False)

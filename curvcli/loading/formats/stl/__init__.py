@@ -41,6 +41,7 @@ register(
         encodings="text, binary",
         rows="one per distinct position, in order of first appearance",
         digits="float32 in binary files, doubles in text",
+        labels="`solid` of text, as `solids`",
         polygons="triangles only",
     )
 )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import InputError, Notice
-from ....mesh.file import MeshFile
+from ....mesh.file import Labels, MeshFile
 from ....mesh.welding import weld_exact
 from ....support.blocks import slices
 from ....support.words import number_of, pluralize
@@ -16,6 +16,7 @@ from ...limits import check_faces
 from ...pieces import Pieces
 from ...text import BLANK, NEWLINE, Untidy, line_starts, pick_lines, plain_lines, read_records, tidy, without_comments
 from .sign import ASCII_SIGN, HEADER, announced_size, has_room
+from .solids import TextFacets, label_solids
 from .tokens import read_ascii_tokens
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -37,6 +38,7 @@ def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None
     Errors: InputError where data are missing or a facet has not three vertices.
     """
     xyz: NDArray[np.float32] | NDArray[np.float64]
+    labels: dict[str, Labels] = {}
     hint = "a surface needs at least one facet"
     # Text never announces fewer facets than it has room for: letters in the counter give large numbers.
     if not has_room(pieces.ahead(), pieces.size) and ASCII_SIGN.match(pieces.whole()):
@@ -46,7 +48,8 @@ def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None
                 "it begins with `solid` as text does, and as binary STL its counter asks for "
                 f"{announced_size(data)} bytes, not {len(data)}"
             )
-        xyz, notices = _read_ascii(data, max_faces)
+        xyz, notices, solids = _read_ascii(data, max_faces)
+        labels["solids"] = solids
     else:
         xyz, notices = _read_binary(pieces, max_faces)
     if not xyz.shape[1]:
@@ -56,7 +59,7 @@ def parse_stl(pieces: Pieces, *, weld: bool = True, max_faces: int | None = None
         xyz = xyz[:, first]
     else:
         corners = np.arange(xyz.shape[1], dtype=np.int32)
-    return MeshFile("stl", np.ascontiguousarray(xyz, np.float64), corners, notices=notices)
+    return MeshFile("stl", np.ascontiguousarray(xyz, np.float64), corners, polygon_labels=labels, notices=notices)
 
 
 def _read_binary(pieces: Pieces, max_faces: int | None) -> tuple[NDArray[np.float32], tuple[Notice, ...]]:
@@ -86,13 +89,13 @@ def _read_binary(pieces: Pieces, max_faces: int | None) -> tuple[NDArray[np.floa
     return xyz, (trailing,) if missing < 0 else ()
 
 
-def _read_ascii(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
+def _read_ascii(data: bytes, max_faces: int | None) -> TextFacets:
     text = tidy(plain_lines(data))
     if b"#" in text:
         text = tidy(without_comments(text, but_in=b"sS"))  # the name of a solid
     problem = None
     try:
-        xyz, notices = _read_lines(text, max_faces)
+        facets = _read_lines(text, max_faces)
     except Untidy:
         pass
     except InputError as error:
@@ -100,15 +103,15 @@ def _read_ascii(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64]
             raise  # binary data among the text: tokens would pass over them
         problem = error
     else:
-        if all(notice.code != "unknown_statements" for notice in notices):
-            return xyz, notices
+        if all(notice.code != "unknown_statements" for notice in facets.notices):
+            return facets
         # Lines that begin with no keyword may continue a statement.
         try:
-            whole, others = read_ascii_tokens(text, max_faces)
+            others = read_ascii_tokens(text, max_faces)
         except InputError:
-            return xyz, notices
-        known = all(notice.code != "unknown_statements" for notice in others)
-        return (whole, others) if known and whole.shape == xyz.shape else (xyz, notices)
+            return facets
+        known = all(notice.code != "unknown_statements" for notice in others.notices)
+        return others if known and others.xyz.shape == facets.xyz.shape else facets
     try:
         return read_ascii_tokens(text, max_faces)
     except InputError as error:
@@ -127,7 +130,7 @@ def _share_lines(data: bytes, starts: NDArray[np.int64], first: NDArray[np.integ
     return False
 
 
-def _read_lines(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
+def _read_lines(data: bytes, max_faces: int | None) -> TextFacets:
     starts = line_starts(np.frombuffer(data, np.uint8))
     first = np.frombuffer(data, np.uint8)[starts[:-1]] | 32  # lower case
     if _share_lines(data, starts, first):
@@ -165,7 +168,10 @@ def _read_lines(data: bytes, max_faces: int | None) -> tuple[NDArray[np.float64]
     if len(unknown):
         message = pluralize(len(unknown), "[statement|statements] that STL does not know, ignored")
         notices.append(Notice("unknown_statements", len(unknown), message, f"the first is in line {unknown[0] + 1}"))
-    return np.ascontiguousarray(records.flat().reshape(-1, 3).T), tuple(notices)
+    lines = np.flatnonzero(first == ord("s")).tolist()
+    names = [data[starts[line] : starts[line + 1]].partition(b" ")[2] for line in lines]
+    labels = label_solids(np.searchsorted(facets, lines).tolist(), names, len(facets))
+    return TextFacets(np.ascontiguousarray(records.flat().reshape(-1, 3).T), tuple(notices), labels)
 
 
 def _check_keywords(data: bytes, starts: NDArray[np.int64], lines: NDArray[np.intp], word: bytes) -> None:

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import InputError, Notice
+from ....mesh.file import Labels
 from ....support.words import pluralize
 from ...limits import check_faces
 from ...text import BLANK, NEWLINE, read_tokens, separates
+from .solids import TextFacets, label_solids
 
 Offsets = NDArray[np.intp]
 
@@ -23,7 +25,7 @@ _PART = re.compile(rb"(?:normal|outer|loop|vertex|endloop|endfacet)(?= |$)|.*? (
 _NAMES = (b"solid", b"endsolid")
 
 
-def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
+def read_ascii_tokens(text: bytes, max_faces: int | None) -> TextFacets:
     """The corners (3, 3 F) of a tidy text, facet by facet: 21 tokens each, or 17 without a normal.
 
     Names and comments between facets may have any words but those of a whole facet.
@@ -53,10 +55,10 @@ def read_ascii_tokens(text: bytes, max_faces: int | None) -> tuple[NDArray[np.fl
         positions, word = expected[first_wrong[wrong[0]]]
         raise tokens.unexpected(int(positions[wrong[0]]), word.decode())
     check_faces(len(begin), max_faces)
-    notices = _between(tokens, begin, end)
+    notices, solids = _between(tokens, begin, end)
     corners = (loops[whole] + 3)[:, None] + np.arange(3) * _VERTEX
     numbers = tokens.numbers((corners[:, :, None] + np.arange(3)).ravel())
-    return np.ascontiguousarray(numbers.reshape(-1, 3).T), tuple(notices)
+    return TextFacets(np.ascontiguousarray(numbers.reshape(-1, 3).T), tuple(notices), solids)
 
 
 @dataclass(frozen=True)
@@ -124,25 +126,31 @@ class _Tokens:
         return InputError(f"`{token}` found, {asked}", place=self.line(offset))
 
 
-def _between(tokens: _Tokens, begin: Offsets, end: Offsets) -> list[Notice]:
-    """Yield the notices of the text outside facets: ends and names of solids, and other lines.
+def _between(tokens: _Tokens, begin: Offsets, end: Offsets) -> tuple[list[Notice], Labels]:
+    """The notices of the text outside facets, which has ends and names of solids and other lines; and the solids.
 
     Errors: InputError for a part of a facet there.
     """
     text, bounds = tokens.text, np.append(tokens.starts, len(tokens.text))
     left, right = np.concatenate(([0], end)), np.append(begin, len(tokens.starts))
     solids, unknown, last = 0, 0, b""
+    begins: list[int] = []
+    names: list[bytes] = []
     for gap in np.flatnonzero(left < right).tolist():
         offset = int(bounds[left[gap]])
-        last = text[offset : bounds[right[gap]]].lower()
+        own = text[offset : bounds[right[gap]]]
+        last = own.lower()
         named = naming = False
-        for line in last.split(b"\n"):
+        for line, spelt in zip(last.split(b"\n"), own.split(b"\n"), strict=True):
             if match := _PART.match(line):
                 part = (match[1] or match[0]).decode()
                 raise InputError(f"`{part}` outside a facet found", place=tokens.line(offset))
             if (tokens_of_line := line.split(b" ", 1))[0] in _NAMES:
                 # If its line has no name, the next lines have it.
                 named, naming = True, len(tokens_of_line) == 1
+                if tokens_of_line[0] == _NAMES[0]:
+                    begins.append(gap)
+                    names.append(spelt.partition(b" ")[2])
             else:
                 unknown += bool(line) and not naming
             offset += len(line) + 1
@@ -159,4 +167,4 @@ def _between(tokens: _Tokens, begin: Offsets, end: Offsets) -> list[Notice]:
         notices.append(
             Notice("unknown_statements", unknown, message, "facets are triangles between `facet` and `endfacet`")
         )
-    return notices
+    return notices, label_solids(begins, names, len(begin))

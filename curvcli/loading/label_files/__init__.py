@@ -1,0 +1,1 @@
+"""Files of labels for `--regions`: numpy arrays, text and CSV, FreeSurfer's .annot, .label and curv, GIFTI."""
