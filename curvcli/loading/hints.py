@@ -24,7 +24,7 @@ _TABLE = "`curvcli compare` reads reports and tables"
 
 # By suffix; every command was run.
 _WAYS_OUT = {
-    **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "msh", "nas", "tec", "vol"), _MESHIO),
+    **dict.fromkeys(("avs", "bdf", "dat", "fem", "inp", "mdpa", "mesh", "meshb", "nas", "tec", "vol"), _MESHIO),
     **dict.fromkeys(("exo", "pvd", "pvtu", "vti", "vtkhdf", "vtm", "vtmb", "vtpd", "vtr", "vts"), _VTK),
     "pvtp": "it names files of pieces, which are never opened by reference: give the .vtp files themselves",
     **dict.fromkeys(("step", "stp", "iges", "igs", "brep"), _GMSH),

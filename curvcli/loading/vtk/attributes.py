@@ -19,24 +19,24 @@ _CHANNELS = ("red", "green", "blue", "alpha")
 
 @dataclass(frozen=True)
 class Attribute:
-    """Values of points or cells: (n,), (n, k), or n words. names: of the k components, where the file gives them.
+    """Values of points or cells: (n,), (n, k), or n words, None for none.
 
-    role: `normals` or `texture`, or empty.
+    names: of the k components, where the file gives them. role: `normals` or `texture`, or empty.
     """
 
     name: str
-    values: NDArray[Any] | list[str]
+    values: NDArray[Any] | Sequence[str | None]
     role: str = ""
     names: tuple[str, ...] = ()
 
     @property
     def layout(self) -> int:
         """Number of components; 0 for words."""
-        return 0 if isinstance(self.values, list) else self.values.shape[-1] if self.values.ndim > 1 else 1
+        return 0 if not isinstance(self.values, np.ndarray) else self.values.shape[-1] if self.values.ndim > 1 else 1
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Numbers by name, one column per component: `_x`, `_y`, `_z` of three, colours, else by index."""
-        if isinstance(self.values, list):
+        if not isinstance(self.values, np.ndarray):
             return {}
         if self.values.ndim == 1 or self.values.shape[1] == 1:
             return {self.name: self.values.reshape(-1)}
@@ -98,10 +98,11 @@ def labels(attributes: Iterable[Attribute], meanings: Mapping[str, tuple[str, ..
     found: dict[str, Labels] = {}
     for attribute in attributes:
         values = attribute.values
-        if isinstance(values, list):
-            number: dict[str, int] = {}
-            codes = np.array([number.setdefault(word, len(number)) for word in values], np.int32)
-            found[attribute.name] = Labels(codes, tuple(number))
+        if not isinstance(values, np.ndarray):
+            number: dict[str | None, int] = {None: -1}
+            codes = np.array([number.setdefault(word, len(number) - 1) for word in values], np.int32)
+            del number[None]
+            found[attribute.name] = Labels(codes, tuple(word for word in number if word is not None))
         elif (names := meanings.get(attribute.name)) and _are_codes(values, len(names)):
             found[attribute.name] = Labels(values.astype(np.int32), names)
     return found

@@ -242,7 +242,7 @@ def _whole(data: bytes, size: int) -> bytes:
     return data
 
 
-def numbers_of_text(text: bytes, dtype: np.dtype[Any], count: int) -> NDArray[Any]:
+def numbers_of_text(text: bytes, dtype: np.dtype[Any], count: int | None) -> NDArray[Any]:
     """Numbers of a text. Decimal fractions stay doubles, as in all text formats."""
     whole = dtype.kind != "f"
     text = tidy(plain_lines(text)[:-1].replace(b"\n", b" ") + b"\n")
@@ -254,7 +254,7 @@ def numbers_of_text(text: bytes, dtype: np.dtype[Any], count: int) -> NDArray[An
             numbers = _long(text, known, dtype)
         if whole:
             numbers = _typed(numbers, dtype)
-    if len(numbers) != count:
+    if count is not None and len(numbers) != count:
         raise InputError(f"{number_of(len(numbers), 'value')} found, {count} expected by the counts")
     return numbers
 
