@@ -33,7 +33,6 @@ _WAYS_OUT = {
         _CAD,
     ),
     **dict.fromkeys(("3ds", "abc", "blend", "c4d", "dae", "fbx", "ma", "max", "mb", "usd", "usda", "usdz"), _SCENE),
-    "fe": "the command file stl.cmd of the Surface Evolver writes it as STL",
     **dict.fromkeys(("e57", "las", "laz", "pcd", "pts", "xyz"), _POINTS),
     **dict.fromkeys(("dcm", "mha", "mrc", "nhdr", "nii", "nrrd", "tif", "tiff"), _VOLUME),
     **dict.fromkeys(("7z", "bz2", "tar", "tgz", "xz", "zip", "zst"), _UNPACK),

@@ -70,7 +70,6 @@ def test_pyvista_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> Non
         ("parts.zip", "unpack it first"),
         ("report.json", "curvcli compare"),
         ("table.csv", "curvcli compare"),
-        ("cell.fe", "Surface Evolver"),
     ],
 )
 @pytest.mark.parametrize("command", ["analyze", "check", "curves"])
