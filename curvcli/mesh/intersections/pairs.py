@@ -19,10 +19,10 @@ _CERTAIN = 8 * EPSILON
 _EDGES = ((0, 1), (1, 2), (2, 0))
 
 
-def contacts(p: Floats, q: Floats, shared: Ints) -> Sign:
+def contacts(p: Floats, q: Floats, shared: int) -> Sign:
     """(n,) kinds of contact of triangles p and q, (3, 3, n) each: corner, coordinate, pair; neither without area.
 
-    shared: (n,) 0, 1 or 2, the number of corners in common, which come first in both, in the same order.
+    shared: 0, 1 or 2, the number of corners in common, which come first in both, in the same order.
     * crossing: they meet along a segment, and each has corners on both sides of the other's plane;
     * overlapping: they lie in one plane and have an area in common;
     * folded over: the same, and they share an edge;
@@ -31,16 +31,14 @@ def contacts(p: Floats, q: Floats, shared: Ints) -> Sign:
     Triangle-Triangle Overlap Test Using Orientation Predicates, 2003.
     """
     result = np.full(p.shape[-1], APART, np.int8)
-    for number, apart, decide in (
-        (0, _apart, _without_common_corner),
-        (1, _apart_at_corner, _with_common_corner),
-        (2, _apart_at_edge, _with_common_edge),
-    ):
-        rows = np.flatnonzero(shared == number)
-        if len(rows):
-            rows = rows[~apart(p[..., rows], q[..., rows])]
-        if len(rows):
-            result[rows] = decide(p[..., rows], q[..., rows])
+    apart, decide = (
+        (_apart, _without_common_corner),
+        (_apart_at_corner, _with_common_corner),
+        (_apart_at_edge, _with_common_edge),
+    )[shared]
+    rows = np.flatnonzero(~apart(p, q))
+    if len(rows):
+        result[rows] = decide(p[..., rows], q[..., rows])
     return result
 
 

@@ -82,17 +82,30 @@ def _decide(xyz: Floats, corners: NDArray[np.intp], one: Ints, other: Ints) -> F
     ends, others = corners.take(one, axis=1), corners.take(other, axis=1)
     code = np.zeros(len(one), np.intp)
     for bit, (a, b) in enumerate((a, b) for a in ends for b in others):
-        code |= (a == b).astype(np.intp) << bit
-    rows = np.flatnonzero(_SHARED.take(code) < 3)
-    code = code[rows]
-    p, q = (
-        np.stack([xyz.take(each[order.take(code), rows], axis=1) for order in orders])
-        for each, orders in ((ends, _ORDERS[0]), (others, _ORDERS[1]))
-    )
-    kind = contacts(p, q, _SHARED.take(code))
+        code |= (a == b).view(np.int8).astype(np.intp) << bit
+    shared = _SHARED.take(code)
+    kind = np.full(len(one), APART, np.int8)
+    for number in range(3):
+        rows = np.flatnonzero(shared == number)
+        if len(rows):
+            p, q = _gather(xyz, ends, others, code.take(rows), rows)
+            kind[rows] = contacts(p, q, number)
     meet = np.flatnonzero(kind != APART)
-    meet = meet[_have_area(p[..., meet]) & _have_area(q[..., meet])]
-    return FaceContacts(one[rows[meet]], other[rows[meet]], kind[meet])
+    if len(meet):
+        p, q = _gather(xyz, ends, others, code.take(meet), meet)
+        meet = meet[_have_area(p) & _have_area(q)]
+    return FaceContacts(one[meet], other[meet], kind[meet])
+
+
+def _gather(
+    xyz: Floats, ends: NDArray[np.intp], others: NDArray[np.intp], code: NDArray[np.intp], rows: NDArray[np.intp]
+) -> tuple[Floats, Floats]:
+    """(3, 3, n) corners of the two faces of some pairs, the shared ones first: corner, coordinate, pair."""
+    first, second = (
+        each.ravel().take(order.take(code, axis=1) * each.shape[1] + rows)
+        for each, order in ((ends, _ORDERS[0]), (others, _ORDERS[1]))
+    )
+    return xyz.take(first, axis=1).swapaxes(0, 1), xyz.take(second, axis=1).swapaxes(0, 1)
 
 
 def _orders() -> tuple[Ints, Ints, Ints]:

@@ -14,6 +14,8 @@ from ...support.blocks import slices
 # Children of a node, and number of candidates expanded at a time.
 _WIDTH = 4
 _AT_ONCE = 1 << 15
+# Pairs of nodes expanded at a time, each into 16 pairs of children.
+_PAIRS = 1 << 13
 _BITS = 16
 
 
@@ -51,29 +53,39 @@ class BoxTree:
 
         first, second: (n,) groups of each pair. For a group with itself each pair comes once, and no item with itself.
         """
-        same = first == second
-        stack = [(len(self._first) - 1, np.arange(len(first)), first, second)]
+        same, top = first == second, len(self._first) - 1
+        stack: list[tuple[int, Ints, Ints, Ints]]
+        stack = [(top, *part) for part in _in_parts(np.arange(len(first)), first, second)]
         while stack:
             level, pair, a, b = stack.pop()
-            if len(pair) > _AT_ONCE:
-                stack += [(level, pair[part], a[part], b[part]) for part in slices(len(pair), _AT_ONCE)]
-                continue
-            kept = self._overlap(level, a, b) & ~(same[pair] & (a > b))
-            pair, a, b = pair[kept], a[kept], b[kept]
+            if level == top:
+                kept = self._overlap(level, a[None], b[None])[0, 0]
+                pair, a, b = pair[kept], a[kept], b[kept]
             if level:
-                where, a = self._below(level, first[pair], a)
-                pair, b = pair[where], b[where]
-                where, b = self._below(level, second[pair], b)
-                stack.append((level - 1, pair[where], a[where], b))
+                (mine, a), (yours, b) = self._children(level, first[pair], a), self._children(level, second[pair], b)
+                meet = self._overlap(level - 1, a, b)
+                meet &= mine[:, None] & yours[None]
+                meet &= ~(same[pair] & (a[:, None] > b[None]))
+                i, j, row = np.nonzero(meet)
+                stack += [(level - 1, *part) for part in _in_parts(pair[row], a[i, row], b[j, row])]
             elif len(pair):
                 distinct = a != b
                 yield pair[distinct], self.order[a[distinct]], self.order[b[distinct]]
 
+    def _children(self, level: int, group: Ints, node: Ints) -> tuple[Mask, Ints]:
+        """(4, n) flags of the children that exist, and their nodes; beyond the last, the last again."""
+        above, below = self._first[level], self._first[level - 1]
+        children = below[group] + _WIDTH * (node - above[group]) + np.arange(_WIDTH)[:, None]
+        last = below[group + 1] - 1
+        return children <= last, np.minimum(children, last)
+
     def _overlap(self, level: int, a: Ints, b: Ints) -> Mask:
+        """(i, j, n) flags: the boxes of nodes a (i, n) and b (j, n) meet."""
         low, high = self._low[level], self._high[level]
-        meet = np.ones(len(a), bool)
+        meet = np.ones((len(a), *b.shape), bool)
         for axis in range(3):
-            meet &= (low[axis].take(a) <= high[axis].take(b)) & (low[axis].take(b) <= high[axis].take(a))
+            meet &= low[axis].take(a)[:, None] <= high[axis].take(b)[None]
+            meet &= low[axis].take(b)[None] <= high[axis].take(a)[:, None]
         return meet
 
     def holding(self, points: Floats, group: Ints, above: bool = False) -> Iterator[tuple[Ints, Ints]]:
@@ -108,6 +120,11 @@ class BoxTree:
         count = np.minimum(_WIDTH, below[group + 1] - start)
         where = np.repeat(np.arange(len(node)), count)
         return where, np.arange(len(where)) - np.repeat(np.cumsum(count) - count, count) + start[where]
+
+
+def _in_parts(a: Ints, b: Ints, c: Ints) -> list[tuple[Ints, Ints, Ints]]:
+    """Three arrays of one length in parts."""
+    return [(a[part], b[part], c[part]) for part in slices(len(a), _PAIRS)]
 
 
 def _starts(count: Ints) -> Ints:
