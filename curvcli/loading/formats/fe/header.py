@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ....errors import InputError, Notice
 from ....support.words import pluralize
-from .text import Lines
+from .text import SectionLines
 
 _LINEAR = "a linear soap-film model of triangles in three dimensions expected"
 _REFUSED = {
@@ -32,7 +32,7 @@ _WORD = re.compile(rb"[a-z_#]\w*", re.IGNORECASE)
 
 
 @dataclass
-class Header:
+class DatafileHeader:
     """Names of scalar attributes of vertices and facets, notices, and whether the Evolver wrote the file by `dump`."""
 
     attributes: dict[str, list[str]] = field(default_factory=lambda: {"vertex": [], "facet": []})
@@ -40,12 +40,12 @@ class Header:
     is_dump: bool = False
 
 
-def parse_header(lines: Lines) -> Header:
+def parse_header(lines: SectionLines) -> DatafileHeader:
     """Parse the lines before the vertices; all but declarations of attributes are counted and ignored.
 
     Errors: InputError for a model that is no linear triangulated surface.
     """
-    header = Header()
+    header = DatafileHeader()
     ignored: dict[str, int] = {}
     for row, line in enumerate(lines.text.splitlines()):
         keyword = _WORD.match(line)

@@ -12,14 +12,14 @@ from ...copies import label_faces
 from ...limits import check_faces
 from ...pieces import Pieces
 from .header import parse_header
-from .rows import COLOURS, Rows, row_of_numbers
+from .rows import COLOURS, ElementRows, row_of_numbers
 from .text import split_sections
 
 
 def parse_fe(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     """Parse a datafile or a dump of a linear triangulated surface.
 
-    Rows are in file order, whatever the numbers of elements are. A facet begins where its first edge begins; facets of
+    ElementRows are in file order, whatever the numbers of elements are. A facet begins where its first edge begins; facets of
     more than three edges are polygons. Expressions, constraints and commands are ignored and counted.
     Errors: InputError with the line of a malformed element, or of a model of another kind.
     """
@@ -33,7 +33,8 @@ def parse_fe(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
         raise InputError("a dump without the section `read` found, one expected", hint=hint)
     check_faces(len(sections["faces"].numbers), max_faces)
     vertices, edges, facets = (
-        Rows(sections[name], word) for name, word in (("vertices", "vertex"), ("edges", "edge"), ("faces", "facet"))
+        ElementRows(sections[name], word)
+        for name, word in (("vertices", "vertex"), ("edges", "edge"), ("faces", "facet"))
     )
     vertices.require(3, 3, "3 coordinates")
     edges.require(2, 2, "2 vertices")
@@ -43,7 +44,7 @@ def parse_fe(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     corners = _loops(vertices, edges, facets)
     sizes = facets.sizes
     triangles = bool((np.asarray(sizes) == 3).all())
-    bodies = Rows(sections["bodies"], "body") if "bodies" in sections else None
+    bodies = ElementRows(sections["bodies"], "body") if "bodies" in sections else None
     labels = _bodies(facets, bodies)
     properties = _attributes(facets, header.attributes["facet"])
     if (colour := facets.colours()) is not None:
@@ -65,7 +66,7 @@ def parse_fe(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     )
 
 
-def _loops(vertices: Rows, edges: Rows, facets: Rows) -> NDArray[np.int32]:
+def _loops(vertices: ElementRows, edges: ElementRows, facets: ElementRows) -> NDArray[np.int32]:
     """The vertices of all facets, concatenated: where each of its edges begins.
 
     Errors: InputError for edges that do not follow each other around a facet.
@@ -89,7 +90,7 @@ def _loops(vertices: Rows, edges: Rows, facets: Rows) -> NDArray[np.int32]:
     return np.asarray(tail, np.int32)
 
 
-def _attributes(rows: Rows, names: list[str]) -> dict[str, NDArray[np.generic]]:
+def _attributes(rows: ElementRows, names: list[str]) -> dict[str, NDArray[np.generic]]:
     properties: dict[str, NDArray[np.generic]] = {}
     for name in names:
         if (values := rows.attribute(name)) is not None:
@@ -97,7 +98,7 @@ def _attributes(rows: Rows, names: list[str]) -> dict[str, NDArray[np.generic]]:
     return properties
 
 
-def _bodies(facets: Rows, bodies: Rows | None) -> dict[str, Labels]:
+def _bodies(facets: ElementRows, bodies: ElementRows | None) -> dict[str, Labels]:
     """The body of each facet, or the pair of a facet between two, as `1|2`."""
     front, back = np.zeros(facets.count, np.int64), np.zeros(facets.count, np.int64)
     if bodies is not None and bodies.count:
@@ -122,7 +123,7 @@ def _colour_labels(colour: NDArray[np.int32]) -> Labels:
     return label_faces(code, names)
 
 
-def _ignored(*sections: Rows) -> list[Notice]:
+def _ignored(*sections: ElementRows) -> list[Notice]:
     count = sum(rows.attributed for rows in sections)
     if not count:
         return []

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ....errors import InputError
 from ....support.words import number_of
 from ...text import NEWLINE, read_columns, read_tokens, separates
-from .text import Lines
+from .text import SectionLines
 
 COLOURS = (
     *("clear", "black", "blue", "green", "cyan", "red", "magenta", "brown", "lightgray", "darkgray", "lightblue"),
@@ -21,14 +21,14 @@ _EXPRESSION = "expressions are not evaluated; the Evolver's command `dump` write
 _BOUNDARY = "the Evolver's `unset vertex boundary N`, then `dump`, writes coordinates"
 
 
-class Rows:
-    """Rows of a section.
+class ElementRows:
+    """ElementRows of a section.
 
     id: (n,) number of each element. values: the numbers behind it, concatenated. sizes: how many, an int for all or
     (n,). attributed: rows with words behind their numbers.
     """
 
-    def __init__(self, lines: Lines, name: str) -> None:
+    def __init__(self, lines: SectionLines, name: str) -> None:
         self.lines, self.name = lines, name
         self.count = len(lines.numbers)
         self.attributed = 0
@@ -154,7 +154,7 @@ class Rows:
         return tokens
 
 
-def row_of_numbers(ids: NDArray[np.int64], wanted: NDArray[Any], rows: Rows, name: str) -> NDArray[np.int32]:
+def row_of_numbers(ids: NDArray[np.int64], wanted: NDArray[Any], rows: ElementRows, name: str) -> NDArray[np.int32]:
     """The row of each wanted number. Errors: InputError for a number that no element has, or that two have."""
     order = np.argsort(ids, kind="stable")
     ordered = ids[order]

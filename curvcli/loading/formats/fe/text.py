@@ -16,7 +16,7 @@ _SECTION = re.compile(rb"^(vertices|edges|facetedges|facets|faces|bodies|read) ?
 
 
 @dataclass(frozen=True)
-class Lines:
+class SectionLines:
     """Tidy lines of a section. numbers: of each in the file, from 0."""
 
     text: bytes
@@ -27,13 +27,13 @@ class Lines:
         return f"line {int(self.numbers[row]) + 1}"
 
 
-def split_sections(data: bytes) -> dict[str, Lines]:
+def split_sections(data: bytes) -> dict[str, SectionLines]:
     """The lines of each section by its name; those before the first are `header`, `facets` are `faces`.
 
     Errors: InputError for a section that stands twice.
     """
     text, numbers = _joined(_without_comments(plain_lines(data)))
-    sections: dict[str, Lines] = {}
+    sections: dict[str, SectionLines] = {}
     name, at, line = "header", 0, 0
     for mark in (*_SECTION.finditer(text), None):
         end = len(text) if mark is None else mark.start()
@@ -42,13 +42,13 @@ def split_sections(data: bytes) -> dict[str, Lines]:
             raise InputError(
                 f"a second section `{name}` found, one expected", place=f"line {int(numbers[line - 1]) + 1}"
             )
-        sections[name] = Lines(text[at:end], numbers[line:stop])
+        sections[name] = SectionLines(text[at:end], numbers[line:stop])
         if mark is None or name == "read":
             break
         name = mark[1].decode().lower().replace("facets", "faces")
         at, line = mark.end() + 1, stop + 1
         if name == "read":
-            sections[name] = Lines(text[at:], numbers[line:])
+            sections[name] = SectionLines(text[at:], numbers[line:])
             break
     return sections
 
