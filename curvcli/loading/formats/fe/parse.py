@@ -19,7 +19,7 @@ from .text import split_sections
 def parse_fe(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     """Parse a datafile or a dump of a linear triangulated surface.
 
-    ElementRows are in file order, whatever the numbers of elements are. A facet begins where its first edge begins; facets of
+    Rows are in file order, whatever the numbers of elements are. A facet begins where its first edge begins; facets of
     more than three edges are polygons. Expressions, constraints and commands are ignored and counted.
     Errors: InputError with the line of a malformed element, or of a model of another kind.
     """

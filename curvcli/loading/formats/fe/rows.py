@@ -22,7 +22,7 @@ _BOUNDARY = "the Evolver's `unset vertex boundary N`, then `dump`, writes coordi
 
 
 class ElementRows:
-    """ElementRows of a section.
+    """Rows of a section.
 
     id: (n,) number of each element. values: the numbers behind it, concatenated. sizes: how many, an int for all or
     (n,). attributed: rows with words behind their numbers.
