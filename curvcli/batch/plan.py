@@ -82,7 +82,9 @@ def saves(options: Iterable[str]) -> tuple[str, ...]:
                 f"--save {escape_text(text)}: there is no table {escape_text(kind)!r}{way_out}; expected KIND.SUFFIX"
             )
         try:
-            format_of(f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "report", "page", "picture"])
+            format_of(
+                f"x.{suffix}", kinds=["table"] if kind else ["table", "mesh", "overlay", "report", "page", "picture"]
+            )
         except UsageError as error:
             raise UsageError(f"--save {escape_text(text)}: {str(error).partition(': ')[2]}") from None
         chosen[text] = None

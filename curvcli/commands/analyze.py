@@ -131,12 +131,16 @@ class AnalyzeRun:
         self.tables = [[(kind, expand(path, mesh, len(meshes))) for kind, path in own_tables] for mesh in meshes]
         check_apart(meshes, self.paths)
         check_apart(meshes, [[path for _, path in each] for each in self.tables])
-        kinds_of_output: tuple[OutputKind, ...] = ("table", "mesh", "report", "page", "picture")
+        kinds_of_output: tuple[OutputKind, ...] = ("table", "mesh", "overlay", "report", "page", "picture")
         formats = [
             format_of(path, name=stream_format if path == "-" else None, kinds=kinds_of_output)
             for path in [*self.paths[0], *self.shared.pictures]
         ]
         check_appearance(self.appearance, at_scale, [format.suffix for format in formats])
+        if any(format.kind == "overlay" for format in formats):
+            from ..output.overlays import check_overlays
+
+            check_overlays(self.paths[0], self.appearance, at_scale, stream_format)
         self.besides = needs(formats, [kind for kind, _ in kinds], self.appearance, at_scale)
         for kind, path in [*self.tables[0], *((HISTOGRAM, path) for path in self.shared.tables)]:
             format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
@@ -221,7 +225,7 @@ class AnalyzeRun:
         said = self.as_json or bool(self.get) or self.strict or not (self.quiet or self.to_stdout)
         name = self.stream_format
         kinds = {format_of(path, name=name if path == "-" else None).kind for path in paths}
-        return said or not kinds <= {"table", "mesh", "picture"}
+        return said or not kinds <= {"table", "mesh", "overlay", "picture"}
 
     def print_result(self, analysis: Result) -> Report | None:
         """Print one analysis on stdout; return its report if it is printed later."""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .appearance import Appearance
     from .distributions import MeshSamples
 
-OutputKind = Literal["table", "mesh", "triangles", "report", "page", "picture"]
+OutputKind = Literal["table", "mesh", "triangles", "overlay", "report", "page", "picture"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,6 +67,18 @@ class MeshFormat(Format):
     write: Callable[..., tuple[Notice, ...]]
     properties: bool = False
     quality: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class OverlayFormat(Format):
+    """A format of columns of vertices without the surface.
+
+    write: takes a stream, columns by name and the number of faces. several: whether it holds more than one column.
+    """
+
+    kind: OutputKind = "overlay"
+    write: Callable[[BinaryIO, Mapping[str, Any], int], None]
+    several: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

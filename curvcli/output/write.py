@@ -17,7 +17,7 @@ from .atomic import Outputs
 from .coloring import color_needs, colored_quantity, colors
 from .distributions import histogram_columns, samples_of
 from .pictures.options import check_picture_options, parse_view
-from .registry import DocumentFormat, Format, MeshFormat, format_of, output_formats
+from .registry import DocumentFormat, Format, MeshFormat, OverlayFormat, format_of, output_formats
 from .tables.columns import HISTOGRAM, ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
 from .tables.histogram import histogram_table
 
@@ -73,9 +73,10 @@ def write_into(
 ) -> tuple[list[Notice], list[str]]:
     """Write the vertex table, mesh, picture or report that each path's suffix names into outputs that are open already.
 
-    Returns notices of values that a format cannot hold, and for each column of a picture a line with its range.
-    The analysis must include the quantities of `needs`. tables: pairs of a kind (`edges`, `faces`, …) and a path.
-    command: the command line, for pages. checked: the checks, computed in another thread; reports wait for them.
+    Returns notices of values that a format cannot hold, and a line for each column of a picture, with its range, and
+    for each overlay, with its columns. The analysis must include the quantities of `needs`. tables: pairs of a kind
+    (`edges`, `faces`, …) and a path. command: the command line, for pages. checked: the checks, computed in another
+    thread; reports wait for them.
     """
     notices: list[Notice] = []
     ranges: list[str] = []
@@ -94,6 +95,13 @@ def write_into(
                 if isinstance(format, MeshFormat):
                     with outputs.open(path) as stream:
                         notices += _write_mesh(stream, analysis, format, appearance)
+                elif isinstance(format, OverlayFormat):
+                    from .overlays import write_overlay
+
+                    with outputs.open(path) as stream:
+                        line, lost = write_overlay(stream, analysis, path, format, appearance)
+                    notices += lost
+                    ranges.append(f"{path}: {line}")
             if checked is not None:
                 checked.result()
             for path, format in formats.items():

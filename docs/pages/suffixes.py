@@ -12,6 +12,7 @@ _HOLDS = {
     "table": "rows and columns",
     "mesh": "the surface with its columns",
     "triangles": "the surface alone, of `curvcli sample` only",
+    "overlay": "columns of vertices, to lay over the surface that was read",
     "report": "the report",
     "page": "the report, to be read",
     "picture": "a picture",

@@ -102,7 +102,7 @@ def _parameters() -> Iterable[str]:
 def _formats() -> list[str]:
     from ...output.registry import suffixes
 
-    return [suffix[1:] for suffix in suffixes(("table", "mesh", "report", "page", "picture"))]
+    return [suffix[1:] for suffix in suffixes(("table", "mesh", "overlay", "report", "page", "picture"))]
 
 
 def _plain_formats() -> list[str]:
