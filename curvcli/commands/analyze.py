@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,7 @@ import click
 from ..errors import FAILED_CHECK, OK, OutputError, UsageError, worst
 from ..loading.limits import parse_weld
 from ..output.registry import listed
-from . import options
+from . import candidates, options
 from .config_notes import configuration
 from .limits import bounded
 from .meshes import each_mesh, input_of
@@ -30,6 +30,12 @@ if TYPE_CHECKING:
     from ..output.atomic import Outputs
     from ..output.registry import OutputKind
     from ..report.model import Report
+
+
+def _tables() -> Iterable[str]:
+    from ..output.tables.columns import TABLES
+
+    return TABLES
 
 
 @click.command("analyze", short_help="Compute curvatures: tables, coloured meshes, the report.")
@@ -48,6 +54,7 @@ if TYPE_CHECKING:
     "--table",
     "tables",
     metavar="KIND=PATH",
+    shell_complete=candidates.tables(_tables),
     multiple=True,
     help="Write another table: edges, faces, loops, regions, components, intersections or histogram; repeatable.",
 )

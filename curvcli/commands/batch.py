@@ -14,7 +14,7 @@ import click
 from ..errors import UsageError, worst
 from ..loading.limits import parse_weld
 from ..support.words import counted
-from . import options
+from . import candidates, options
 from .config_notes import configuration
 from .settings import merge_settings, setting
 from .talk import say
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 @click.option(
     "--save",
     metavar="SUFFIX[,SUFFIX]",
+    shell_complete=candidates.formats,
     multiple=True,
     help="Outputs per mesh, by suffix as for `analyze -o`, such as csv,ply,png,json, or a table, such as edges.csv. "
     "By default only the summary is written.",

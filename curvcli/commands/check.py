@@ -10,7 +10,7 @@ import click
 
 from ..errors import LackingError, worst
 from ..loading.limits import parse_weld
-from . import options
+from . import candidates, options
 from .config_notes import configuration
 from .limits import bounded
 from .meshes import each_mesh, input_of
@@ -48,6 +48,7 @@ class _Requirements(click.Option):
 @click.option(
     "--require",
     metavar="NAME[,NAME]",
+    shell_complete=candidates.requirements,
     multiple=True,
     cls=_Requirements,
     help="Additional requirements; repeatable.",
@@ -58,7 +59,13 @@ class _Requirements(click.Option):
     multiple=True,
     help="Define a set of requirements for --require; repeatable. A configuration has them in a table `sets`.",
 )
-@click.option("--allow", metavar="NAME[,NAME]", multiple=True, help="Skip a requirement or an identity; repeatable.")
+@click.option(
+    "--allow",
+    metavar="NAME[,NAME]",
+    shell_complete=candidates.tests,
+    multiple=True,
+    help="Skip a requirement or an identity; repeatable.",
+)
 @click.option(
     "--assert",
     "asserted",

@@ -10,7 +10,7 @@ from click.core import ParameterSource
 
 from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
-from . import options
+from . import candidates, options
 from .config_notes import configuration
 from .limits import bounded
 from .meshes import input_of
@@ -75,6 +75,7 @@ _CONVENTIONS = (
     "--table",
     "tables",
     metavar="KIND=PATH",
+    shell_complete=candidates.tables(lambda: TABLES),
     multiple=True,
     help="With --map: write a table, KIND faces (singular values, orientation) or vertices (harmonic residual); "
     "repeatable.",

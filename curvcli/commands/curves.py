@@ -9,7 +9,7 @@ import click
 
 from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
-from . import options
+from . import candidates, options
 from .limits import bounded
 from .meshes import input_of
 from .outputs import one_stdout, print_report, tables_and_reports
@@ -35,6 +35,7 @@ TABLES = ("curves", "vertices", "links")
     "--table",
     "tables",
     metavar="KIND=PATH",
+    shell_complete=candidates.tables(lambda: TABLES),
     multiple=True,
     help="Write a table, KIND curves (a row per curve), links (a row per pair of closed "
     "curves) or vertices (as -o); repeatable.",

@@ -8,11 +8,12 @@ import click
 
 if TYPE_CHECKING:
     from .topics import Topic
+from . import candidates
 from .talk import put
 
 
 @click.command("help", short_help="Explain a topic or a command; without one, list the topics.")
-@click.argument("topic", required=False)
+@click.argument("topic", required=False, shell_complete=candidates.topics)
 def command(topic: str | None) -> int:
     """Explain TOPIC: conventions, checks, formats, exit codes and more, or a command. Without it, list the topics.
 

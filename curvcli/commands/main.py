@@ -82,11 +82,7 @@ class LazyGroup(click.Group):
         if cmd_name not in COMMANDS:
             return None
         command: click.Command = import_module(f"curvcli.commands.{cmd_name}").command
-        return (
-            import_module("curvcli.commands.completion.candidates").completing(command)
-            if ctx.resilient_parsing
-            else command
-        )
+        return import_module("curvcli.commands.candidates").completing(command) if ctx.resilient_parsing else command
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -148,7 +144,7 @@ def main(early: Handler | None = None, heard: Sequence[int] = ()) -> NoReturn:
         if heard:
             raise KeyboardInterrupt
         if COMPLETE in os.environ:
-            import_module("curvcli.commands.completion.scripts")
+            import_module("curvcli.commands.completion")
         result = cli.main(complete_var=COMPLETE, standalone_mode=False)
         code = result if isinstance(result, int) else OK
         sys.stdout.flush()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..loading.registry import input_formats
+from . import candidates
 
 if TYPE_CHECKING:
     from ..output.appearance import Appearance
@@ -57,7 +58,13 @@ def get(example: str) -> Decorator:
     return click.option("--get", metavar="KEY", multiple=True, help=text)
 
 
-stream_format = click.option("--format", "stream_format", metavar="NAME", help="Format of `-o -`, such as csv.")
+stream_format = click.option(
+    "--format",
+    "stream_format",
+    metavar="NAME",
+    shell_complete=candidates.formats,
+    help="Format of `-o -`, such as csv.",
+)
 precision = click.option(
     "--precision", metavar="shortest|N", default="shortest", show_default=True, help="Significant digits in tables."
 )
@@ -83,6 +90,7 @@ passes = click.option(
     "--pass",
     "passes",
     metavar="NAME[,NAME]",
+    shell_complete=candidates.passes,
     multiple=True,
     help="Columns to compute, or a preset: topology, core (default), paper, estimates, folding, all. `curvcli passes` "
     "lists them.",
@@ -204,12 +212,14 @@ drawing = together(
     click.option(
         "--color-by",
         metavar="COLUMN[,COLUMN]",
+        shell_complete=candidates.columns,
         help="Columns of pictures and histograms, a panel each; the first one colours meshes and pages.",
     ),
     click.option(
         "--histogram",
         "histograms",
         metavar="COLUMN[,COLUMN]",
+        shell_complete=candidates.columns,
         multiple=True,
         help="Column of a histogram, or two against each other, such as kappa_1,kappa_2; repeatable, a panel each.  "
         "[default: --color-by, else every number]",

@@ -5,12 +5,12 @@ from __future__ import annotations
 import click
 
 from ..support.words import escape_text
-from . import options
+from . import candidates, options
 from .talk import put
 
 
 @click.command("passes", short_help="List every quantity, or explain one.")
-@click.argument("name", required=False)
+@click.argument("name", required=False, shell_complete=candidates.quantities)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("--markdown", is_flag=True, help="Print the documentation page of all quantities.")
 @options.schema

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..output.registry import listed
-from . import options
+from . import candidates, options
 from .outputs import one_stdout
 from .talk import say
 
@@ -19,7 +19,7 @@ _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
 
 
 @click.command("sample", short_help="Write a test surface with known curvatures.")
-@click.argument("name", required=False)
+@click.argument("name", required=False, shell_complete=candidates.samples)
 @click.option(
     "-o",
     "--output",
@@ -31,7 +31,14 @@ _NORMALS = {"normal_x": "nx", "normal_y": "ny", "normal_z": "nz"}
 )
 @click.option("--size", type=click.IntRange(4), help="Approximate number of vertices.")
 @click.option("--scale", type=float, default=1.0, show_default=True, help="Multiply all lengths.")
-@click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, help="Set a parameter of the surface.")
+@click.option(
+    "--set",
+    "settings",
+    metavar="NAME=VALUE",
+    shell_complete=candidates.sample_parameters,
+    multiple=True,
+    help="Set a parameter of the surface.",
+)
 @click.option("--ascii", "ascii_stl", is_flag=True, help="Write .stl as text, which keeps doubles.")
 @options.stream_format
 @options.force

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from curvcli.commands.completion.scripts import ASKING
+from curvcli.commands.completion import ASKING
 from curvcli.commands.main import cli
 from curvcli.commands.names import COMPLETE
 from tests.helpers.cli.program import curvcli, environment

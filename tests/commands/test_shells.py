@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.commands.completion.test_completion import install
+from tests.commands.test_completion import install
 from tests.helpers.cli.program import ROOT
 
 pty = pytest.importorskip("pty", reason="this system has no pseudo-terminals")

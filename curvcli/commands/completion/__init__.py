@@ -1,5 +1,0 @@
-"""Completion of the command line by shells."""
-
-from .cli import command
-
-__all__ = ["command"]
