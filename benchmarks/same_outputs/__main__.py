@@ -70,7 +70,7 @@ def run_both(commits: Sequence[str], folder: Path, folders: list[str], samples: 
         for commit, tree in zip(commits, trees, strict=True):
             _git("worktree", "add", "--detach", "--force", str(tree), commit)
         runner = shutil.copy(Path(__file__).with_name("run.py"), folder / "trees" / "run.py")
-        meshes = [str(path) for each in folders for path in sorted(Path(each).rglob("*")) if path.suffix in SUFFIXES]
+        meshes = _subjects(folders)
         names = _names(trees[0], samples)
         inputs = folder / "inputs"
         inputs.mkdir()
@@ -88,14 +88,13 @@ def run_both(commits: Sequence[str], folder: Path, folders: list[str], samples: 
             _git("worktree", "remove", "--force", str(tree), check=False)
 
 
-def plan(names: list[str], meshes: list[str], folders: list[str], inputs: Path) -> list[Case]:
+def plan(names: list[str], meshes: dict[str, str], folders: list[str], inputs: Path) -> list[Case]:
     """Every command line, in order."""
     cases = [*of_samples(names), *once(folders)]
-    for mesh in [*(str(inputs / f"{name}.ply") for name in names), *meshes]:
-        file = inputs / "moved" / f"{Path(mesh).name}.obj"
+    for subject, mesh in {**{name: str(inputs / f"{name}.ply") for name in names}, **meshes}.items():
+        file = inputs / "moved" / f"{subject}.obj"
         moved, labels = (str(file), str(file.with_suffix(".txt"))) if file.exists() else (None, None)
-        place = Path(mesh)
-        cases += of_mesh(f"{place.parent.name}-{place.name}", mesh, moved, labels)
+        cases += of_mesh(subject, mesh, moved, labels)
     return cases
 
 
@@ -115,6 +114,16 @@ def report(found: list[Difference], cases: int) -> None:
     for group in sorted(alike.values(), key=len, reverse=True):
         first = group[0]
         click.echo(f"\n{len(group):6}  {first.case} {first.file}\n        - {first.old}\n        + {first.new}")
+
+
+def _subjects(folders: list[str]) -> dict[str, str]:
+    """Paths of meshes by the name of the subject: the number of the folder and the path in it."""
+    return {
+        f"{number}-{'-'.join(path.relative_to(folder).parts)}": str(path)
+        for number, folder in enumerate(folders)
+        for path in sorted(Path(folder).rglob("*"))
+        if path.suffix.lower() in SUFFIXES
+    }
 
 
 def _names(tree: Path, pattern: str) -> list[str]:

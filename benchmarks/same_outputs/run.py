@@ -27,8 +27,11 @@ LIBRARIES = (
 )
 
 
-def prepare(samples: list[str], meshes: list[str], folder: Path) -> None:
-    """Write samples, and for each readable mesh a moved copy (.obj) and labels of its faces (.txt)."""
+def prepare(samples: list[str], meshes: dict[str, str], folder: Path) -> None:
+    """Write samples, and for each readable mesh a moved copy (.obj) and labels of its faces (.txt).
+
+    meshes: paths by the name of the subject, which is a valid name of a file.
+    """
     import numpy as np
 
     import curvcli
@@ -37,7 +40,7 @@ def prepare(samples: list[str], meshes: list[str], folder: Path) -> None:
     for name in samples:
         with contextlib.suppress(Exception):
             execute(["sample", name, "-o", str(folder / f"{name}.ply")], folder / "log" / name)
-    for mesh in [*meshes, *(str(folder / f"{name}.ply") for name in samples)]:
+    for subject, mesh in {**{name: str(folder / f"{name}.ply") for name in samples}, **meshes}.items():
         try:
             surface = curvcli.load(mesh)
         except Exception:
@@ -46,7 +49,7 @@ def prepare(samples: list[str], meshes: list[str], folder: Path) -> None:
         points[surface.faces[0, 0]] += 0.01 * (points[surface.faces[0, 1]] - points[surface.faces[0, 0]])
         lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
         lines += [f"f {a} {b} {c}" for a, b, c in (surface.faces + 1).tolist()]
-        moved = folder / "moved" / f"{Path(mesh).name}.obj"
+        moved = folder / "moved" / f"{subject}.obj"
         moved.parent.mkdir(exist_ok=True)
         moved.write_text("\n".join(lines) + "\n")
         labels = np.arange(surface.n_faces) * 3 // max(surface.n_faces, 1)
