@@ -12,6 +12,7 @@ from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import candidates, options
 from .config_notes import configuration
+from .groups import GROUP_OPTIONS, group_options, is_group
 from .limits import bounded
 from .meshes import input_of
 from .outputs import one_stdout, print_report, tables_and_reports
@@ -36,7 +37,7 @@ _CONVENTIONS = (
 )
 
 
-@click.command("compare", short_help="Compare two meshes or reports; --map: measure one as a map of the other.")
+@click.command("compare", short_help="Compare two meshes, reports or groups of reports; --map: measure a map.")
 @click.argument("a", metavar="A")
 @click.argument("b", metavar="B")
 @click.option(
@@ -80,6 +81,7 @@ _CONVENTIONS = (
     help="With --map: write a table, KIND faces (singular values, orientation) or vertices (harmonic residual); "
     "repeatable.",
 )
+@group_options
 @options.as_json
 @options.get("totals.nonconformality")
 @options.stream_format
@@ -116,11 +118,19 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     With B = uv, the map goes to A's own texture coordinates: A is cut open along the seams of its texture,
     which are counted, and the energy is the sum over the faces. Exits with 1 when an identity fails.
 
+    Two groups: A and B are folders with reports (.json), patterns in quotes, or folders of `curvcli batch` (with
+    --save json or --long). Every total, and the area-weighted mean of every column, of the whole and of each
+    region, is tested for a difference of the means of the groups: Welch's t or permutations, with a confidence
+    interval of B − A, Hedges' g, the number of missing values, and a correction for the number of tests. Numbers
+    that differ by rounding only are not tested. The exit code is 0, with --strict 1 if a difference is significant.
+
     \b
       curvcli compare bunny.obj bunny.json
       curvcli compare old.ply new.ply --rtol 1e-6 --ignore vertices
       curvcli compare bunny.obj bunny.json --only totals --only checks
       curvcli compare torus.ply exact.csv --rings 3
+      curvcli compare controls/ patients/ -o differences.csv -o differences.pdf
+      curvcli compare 'out/control*.json' 'out/patient*.json' --test permutation
       curvcli compare mesh.obj flattened.obj --map
       curvcli compare mesh.obj --map uv
       curvcli compare mesh.obj flattened.obj --map --get totals.nonconformality
@@ -131,6 +141,13 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
         if name in settings and context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             flag = next(p for p in context.command.params if p.name == name).opts[-1]
             raise click.UsageError(f"{flag} goes {'without' if as_map else 'with'} --map", context)
+    if is_group(a) or is_group(b):
+        return _compare_groups(context, a, b, as_map, settings)
+    for name in GROUP_OPTIONS:
+        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            flag = next(p for p in context.command.params if p.name == name).opts[-1]
+            raise click.UsageError(f"{flag} goes with two groups of reports: folders, or patterns in quotes", context)
+        del settings[name]
     if a == "-" == b:
         raise click.UsageError("A and B cannot both be stdin; give one of them a path", context)
     if not as_map:
@@ -140,6 +157,18 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
         del settings["tables"]
         return compare(a, b, given=given, **settings)
     return compare_map(a, b, **{name: value for name, value in settings.items() if name not in _DIFFERENCES})
+
+
+def _compare_groups(context: click.Context, a: str, b: str, as_map: bool, settings: dict[str, Any]) -> int:
+    from ..report.groups.means import TestOptions
+    from .groups import USED, compare_groups
+
+    for name in (*settings, "as_map"):
+        if name not in USED and context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            flag = next(p for p in context.command.params if p.name == name).opts[-1]
+            raise click.UsageError(f"{flag} goes without groups of reports, which are not analysed again", context)
+    test = TestOptions(**{name: settings[name] for name in ("test", "alpha", "correction", "resamples", "seed")})
+    return compare_groups(a, b, test=test, **{name: settings[name] for name in USED if name not in vars(test)})
 
 
 def compare_map(

@@ -21,6 +21,7 @@ from ..report.accuracy import Accuracy
 from ..report.check.model import CheckReport
 from ..report.compare.model import Comparison
 from ..report.curves import CurveReport
+from ..report.groups.model import GroupComparison
 from ..report.maps import MapReport
 from ..report.model import Report, encode, require_all_keys
 from ..report.model import schema as report_schema
@@ -62,7 +63,10 @@ class Described:
 SCHEMAS: dict[str, Described] = {
     "analyze": Described("curvcli analyze --json, -o FILE.json", (Report,), report_schema),
     "check": Described("curvcli check --format json", (CheckReport,)),
-    "compare": Described("curvcli compare --json, also with --map or exact values", (Comparison, Accuracy, MapReport)),
+    "compare": Described(
+        "curvcli compare --json, also with --map, exact values or groups",
+        (Comparison, Accuracy, MapReport, GroupComparison),
+    ),
     "curves": Described("curvcli curves --json", (CurveReport,)),
     "passes": Described("curvcli passes --json, a list; with NAME one of it", (list[Facts], Facts)),
     "batch": Described("a line of manifest.jsonl, by curvcli batch", (Row,)),

@@ -176,9 +176,7 @@ def _piece(piece: Mapping[str, Any], prefix: Key, flatness: float) -> Iterator[t
         yield (*prefix, "topology", name), Leaf(count)
     area, edge = totals.get("area") or 0.0, edge_length(piece)
     terms = 16 * EPSILON * (topology["faces"] + topology["vertices"])
-    exponents = {name: (q.length_exponent, q.signed or q.vector) for name, q in _by_total().items()}
-    exponents["volume"] = 3, False
-    exponents |= {name: (each.length_exponent, False) for name, each in derived.items()}
+    exponents = total_exponents()
 
     def total(value: Any, exponent: int, cancels: bool) -> Leaf:
         return Leaf(value, power(area, exponent / 2) if cancels else 0.0, terms * power(edge, exponent))
@@ -230,6 +228,13 @@ def _flattest(report: Mapping[str, Any]) -> float:
     h, edge = report["columns"].get("h"), edge_length(report)
     least = h["min"] if h is not None else None
     return min(1 / (least * edge), 1 / EPSILON) if least and least * edge > 0 else 1 / EPSILON
+
+
+def total_exponents() -> dict[str, tuple[int, bool]]:
+    """Length exponent of each total, and whether its terms can cancel."""
+    exponents = {name: (q.length_exponent, q.signed or q.vector) for name, q in _by_total().items()}
+    exponents["volume"] = 3, False
+    return exponents | {name: (each.length_exponent, False) for name, each in derived.items()}
 
 
 def _by_total() -> dict[str, Quantity]:
