@@ -15,6 +15,10 @@ FILES = ("pyproject.toml", "mkdocs.yml", "README.md", ".gitignore", ".pre-commit
 PARTS = ("curvcli", "docs", "tests", "sample_meshes", *FILES)
 
 
+# Titles of blocks that are files of the project; the path follows.
+WRITTEN = ("Write ", "Append to ")
+
+
 def clone(folder: Path) -> Path:
     """The project as it is, with the programs that pages call in `bin`."""
     for part in PARTS:
@@ -30,11 +34,12 @@ def clone(folder: Path) -> Path:
 def write(block: Block, project: Path) -> bool:
     """Write or append to the file that a block names; whether it names one."""
     doing, _, path = block.title.rpartition(" ")
-    if doing in ("Write", "Append to"):
+    is_file = block.title.startswith(WRITTEN)
+    if is_file:
         (project / path).parent.mkdir(exist_ok=True)
         with (project / path).open("a" if doing == "Append to" else "w", encoding="utf-8") as stream:
             stream.write(block.code)
-    return doing in ("Write", "Append to")
+    return is_file
 
 
 def follow(page: str, project: Path, written: Callable[[Block], None] = lambda _: None) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 import yaml
 
+from tests.docs.clone import WRITTEN
 from tests.docs.pages import NAMES, ROOT, Block, blocks
 from tests.docs.programs import provide, served, shell
 from tests.docs.shown import OUTPUT, missing
@@ -20,12 +21,18 @@ from tests.docs.shown import OUTPUT, missing
 RUN = ("sh", "python")
 SHOWN = ("text", "yaml", "toml", "json", "make", "snakemake", "dockerfile", "csv")
 
-# Tests of their own follow these pages on a copy of the project.
-FOLLOWED = ("docs/add-a-pass.md", "docs/add-a-check.md", "docs/add-a-format.md")
+# Tests of their own follow the pages that write files of the project, on a copy of it.
+FOLLOWED = [name for name in NAMES if any(block.title.startswith(WRITTEN) for block in blocks(name))]
 
 # What a README installs, the continuous integration installs in an empty environment: see `.ci/run`.
 INSTALLS = "pip install"
 INSTALLED = "pip install . && "
+
+
+@pytest.mark.parametrize("name", FOLLOWED)
+def test_a_test_follows_a_page_that_writes_files(name: str) -> None:
+    test = Path(__file__).with_name(f"test_{Path(name).stem.replace('-', '_')}.py")
+    assert f'"{name}"' in test.read_text(encoding="utf-8")
 
 
 def runnable(name: str) -> list[Block]:
