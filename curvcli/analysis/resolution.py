@@ -17,6 +17,7 @@ from ..mesh.scale import Scale
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
 from ..support.words import format_rounded
+from .distortion import FACTOR, distorted
 
 _SCALED = ("willmore_ring", "willmore_corrected", "willmore_fit")
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
@@ -100,6 +101,16 @@ def of_stars(
             "H_vec stay exact",
         )
         return
+    vertices, part = distorted(surface, columns)
+    if len(vertices):
+        yield Notice.at(
+            "distorted_stars",
+            vertices,
+            "[vertex|vertices] whose triangles are so thin or obtuse that h and K_density of [its star|their stars] "
+            f"would be wrong by more than a factor of {FACTOR} on a sphere; [it carries|they carry] {part:.0%} of Σ|K|",
+            "read *_corrected or *_fit there, or remesh where angle_max is large (--table faces=PATH); the sums of K, "
+            "H_vec and A stay exact",
+        )
     shown = {key: totals[key] for key in _ENERGIES if totals.get(key) is not None}
     if not shown:
         return
