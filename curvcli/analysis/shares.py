@@ -18,6 +18,7 @@ from ..checks.base import rounding
 from ..checks.partition import Share
 from ..curvatures.quantity import AT_SCALE, Quantity
 from ..curvatures.registry import passes
+from ..mesh.borders import vertex_regions
 from ..mesh.groups import Segments
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
@@ -106,13 +107,9 @@ class Partition:
     @cached_property
     def _vertices(self) -> _Split:
         faces, n = self.surface.faces, self.surface.n_vertices
-        label = np.full(n, -1, np.int32)
-        label[faces.ravel()] = np.repeat(self._face, 3)
-        mixed = np.zeros(n, bool)
-        for corner in faces.T:
-            mixed[corner[label[corner] != self._face]] = True
+        label, mixed = vertex_regions(faces, self._face, n)
         label[mixed] = -1
-        at = np.flatnonzero(mixed[faces].ravel())
+        at = np.flatnonzero(mixed[faces])
         vertex, area = faces.ravel()[at], self._area[at // 3]
         star = np.bincount(vertex, area, minlength=n)[vertex]
         share = np.bincount(vertex, minlength=n)[vertex].astype(np.float64)

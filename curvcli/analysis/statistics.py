@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -58,27 +59,35 @@ class GroupedColumn:
     """Values of one column by group, and their statistics.
 
     values: (n,) NaN is null. area: (n,) weights, not negative. used: (n,) elements that count at all, None for all.
+    plans: a dictionary that columns share, to group the same members once.
     Each statistic is (G,), NaN for a group without a value; an `area_` statistic is NaN where the area is 0. Sums are
     pairwise, in units of a power of two near the largest value of the group, so that no square leaves the range of
     doubles. Percentiles interpolate linearly between ordered values (`numpy.quantile`, method `linear`);
     weighted ones are the smallest value up to which the share of the area is reached (method `inverted_cdf`).
     """
 
-    def __init__(self, values: Floats, area: Floats, segments: Segments, used: Mask | None = None) -> None:
+    def __init__(
+        self,
+        values: Floats,
+        area: Floats,
+        segments: Segments,
+        used: Mask | None = None,
+        plans: dict[bytes, list[_Batch]] | None = None,
+    ) -> None:
+        self._plans = {} if plans is None else plans
         known = ~np.isnan(values)
         if used is not None:
             known &= used
         members = segments.members()
         self.groups = segments.count
         if segments.label is None:
-            self._values, self._area = (values, area) if known.all() else (values[known], area[known])
-            self._members = np.array([len(self._values)])
+            self._members = np.array([np.count_nonzero(known)])
         else:
-            order = segments.order
-            if not known.all():
-                order = order[known[order]]
-            self._values, self._area = values[order], area[order]
             self._members = segments.count_true(known)
+            values, area, known = (segments.gather(each) for each in (values, area, known))
+        if len(values) > self._members.sum():
+            values, area = values[known], area[known]
+        self._values, self._area = values, area
         self.count: Ints = self._members
         self.nulls: Ints = members - self._members
         self._full = self._members > 0
@@ -177,69 +186,93 @@ class GroupedColumn:
         variance = self._reduced(np.add, np.square(gaps, out=gaps) * self._area) / self._weight
         return self._all(np.sqrt(variance) * self._size)
 
-    def _batches(self) -> Iterator[tuple[Ints, Ints, Mask | None]]:
-        """Groups of nearly equal size as rows of one array.
-
-        Yields their numbers among the groups that have values, the places (rows, longest) of their members, and the
-        mask of the places beyond a row's end, which repeat its last member; None if there are none.
-        """
-        by_size = np.argsort(self._sizes, kind="stable")
-        sizes = self._sizes[by_size]
-        first = 0
-        while first < len(sizes):
-            longest = int(sizes[first]) + int(sizes[first]) // _SLACK
-            last = int(np.searchsorted(sizes, longest, side="right"))
-            rows = by_size[first:last]
-            place = np.arange(int(sizes[last - 1]))
-            beyond = place >= self._sizes[rows, None]
-            places = self._starts[rows, None] + np.minimum(place, self._sizes[rows, None] - 1)
-            yield rows, places, beyond if beyond.any() else None
-            first = last
+    @cached_property
+    def _batches(self) -> list[_Batch]:
+        """Groups of nearly equal size, together."""
+        key = self._sizes.tobytes()
+        if key not in self._plans:
+            self._plans.clear()
+            self._plans[key] = list(_batches(self._sizes, self._starts))
+        return self._plans[key]
 
     @cached_property
-    def _ordered(self) -> Floats:
-        """Values, ascending within each group."""
-        if len(self._sizes) == 1:
-            return np.sort(self._values)
-        ordered = np.empty_like(self._values)
-        for _, places, beyond in self._batches():
-            block = self._values[places]
-            if beyond is None:
-                ordered[places] = np.sort(block, axis=1)
-            else:
-                block[beyond] = np.inf
-                block.sort(axis=1)
-                ordered[places[~beyond]] = block[~beyond]
-        return ordered
+    def _ordered(self) -> list[tuple[_Batch, Floats]]:
+        """Values of the groups of each batch as rows, ascending; infinite beyond the end of a row."""
+        blocks = []
+        for batch in self._batches:
+            block = batch.rows_of(self._values, np.inf)
+            block.sort(axis=1)
+            blocks.append((batch, block))
+        return blocks
 
     def _quantile(self, share: float) -> Floats:
         """Value below which a share of the ordered values of each group lies, interpolated linearly."""
-        place = share * (self._sizes - 1)
-        below = place.astype(np.int64)
-        above = np.minimum(below + 1, self._sizes - 1)
-        first, second = (self._ordered[self._starts + rank] / self._size for rank in (below, above))
-        return self._all((first + (second - first) * (place - below)) * self._size)
+        result = np.empty(len(self._sizes))
+        for batch, block in self._ordered:
+            last, size, row = batch.sizes - 1, self._size[batch.groups], np.arange(len(block))
+            place = share * last
+            below = place.astype(np.int64)
+            first, second = (block[row, rank] / size for rank in (below, np.minimum(below + 1, last)))
+            result[batch.groups] = (first + (second - first) * (place - below)) * size
+        return self._all(result)
 
     @cached_property
-    def _cumulated(self) -> tuple[Floats, Floats]:
-        """Values, ascending within each group, and the area up to and with each."""
-        ordered, upto = np.empty_like(self._values), np.empty_like(self._values)
-        for _, places, beyond in self._batches():
-            block, area = self._values[places], self._area[places]
-            if beyond is not None:
-                block[beyond], area[beyond] = np.inf, 0.0
+    def _cumulated(self) -> list[tuple[_Batch, Floats, Floats]]:
+        """Values of the groups of each batch as rows, ascending, and the area up to and with each."""
+        blocks = []
+        for batch in self._batches:
+            block, area = batch.rows_of(self._values, np.inf), batch.rows_of(self._area, 0.0)
             order = np.argsort(block, axis=1, kind="stable")
             block, area = (np.take_along_axis(part, order, axis=1) for part in (block, area))
-            area.cumsum(axis=1, out=area)
-            inside = slice(None) if beyond is None else ~beyond
-            ordered[places[inside]], upto[places[inside]] = block[inside], area[inside]
-        return ordered, upto
+            blocks.append((batch, block, area.cumsum(axis=1, out=area)))
+        return blocks
 
     def _weighted(self, share: float) -> Floats:
         """Smallest value of each group up to which the share of the area is reached."""
-        ordered, upto = self._cumulated
-        total = upto[self._starts + self._sizes - 1] if len(ordered) else np.empty(0)
-        reached = (upto >= self._spread(share * total)) & (upto > 0)
-        rank = np.where(reached, np.arange(len(upto)), len(upto))
-        first = self._reduced(np.minimum, rank).astype(np.int64)
-        return self._all(np.where(total > 0, ordered[np.minimum(first, max(len(ordered) - 1, 0))], np.nan))
+        result = np.empty(len(self._sizes))
+        for batch, block, upto in self._cumulated:
+            total = upto[:, -1:]
+            first = ((upto >= share * total) & (upto > 0)).argmax(axis=1)
+            result[batch.groups] = np.where(total[:, 0] > 0, block[np.arange(len(block)), first], np.nan)
+        return self._all(result)
+
+
+class _Batch(NamedTuple):
+    """Groups of nearly equal size as rows of one array.
+
+    groups: their numbers. sizes: of each. places: (rows, longest) of their members; beyond the end of a row, that of
+    its last member. beyond: (rows, longest) mask of these places; None if there are none.
+    """
+
+    groups: Ints
+    sizes: Ints
+    places: Ints | None
+    beyond: Mask | None
+
+    def rows_of(self, values: Floats, fill: float) -> Floats:
+        """Values of the members as rows, with a value beyond the end of a row."""
+        if self.places is None:
+            return values[None].copy()
+        rows = values[self.places]
+        if self.beyond is not None:
+            rows[self.beyond] = fill
+        return rows
+
+
+def _batches(sizes: Ints, starts: Ints) -> Iterator[_Batch]:
+    """Batches of groups that stand one after the other, none of them empty."""
+    if len(sizes) == 1:
+        yield _Batch(np.zeros(1, np.int64), sizes, None, None)
+        return
+    by_size = np.argsort(sizes, kind="stable")
+    ascending = sizes[by_size]
+    first = 0
+    while first < len(sizes):
+        longest = int(ascending[first]) + int(ascending[first]) // _SLACK
+        last = int(np.searchsorted(ascending, longest, side="right"))
+        groups = by_size[first:last]
+        place = np.arange(int(ascending[last - 1]), dtype=np.int32)
+        beyond = place >= sizes[groups, None]
+        places = starts[groups, None] + np.minimum(place, sizes[groups, None] - 1)
+        yield _Batch(groups, sizes[groups], places, beyond if beyond.any() else None)
+        first = last

@@ -113,10 +113,22 @@ def _coded(values: NDArray[Any], source: str, element: LabelledElement) -> Label
         expected = f"a whole number below 2^{bits}" + (", or integers in a .npy file" if bits < 63 else "")
         name = "vertex" if element == "vertex" else "face"
         raise InputError(f"{source}: label {values[first]} of {name} {first}, expected {expected}")
-    names, codes = np.unique(whole[whole >= 0], return_inverse=True)
-    each = np.full(len(whole), -1, np.int32)
-    each[whole >= 0] = codes
-    return Labels(each, tuple(map(str, names.tolist())))
+    names, codes = _distinct(np.maximum(whole, -1))
+    return Labels(codes, tuple(map(str, names.tolist())))
+
+
+def _distinct(numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """The distinct numbers from 0 on, ascending, and (n,) the place of each number among them; -1 for -1."""
+    largest = int(numbers.max(initial=-1))
+    if largest > len(numbers) + (1 << 16):
+        known = numbers >= 0
+        names, codes = np.unique(numbers[known], return_inverse=True)
+        places = np.full(len(numbers), -1, np.int32)
+        places[known] = codes
+        return names, places
+    present = np.bincount(numbers + 1, minlength=largest + 2)[1:] > 0
+    place = np.append(np.cumsum(present, dtype=np.int32) - np.int32(1), np.int32(-1))
+    return np.flatnonzero(present), place[numbers]  # the last place stands for -1
 
 
 def _placed(

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, LackingError, Notice
+from ..mesh.borders import split_vertices
 from ..mesh.counts import count_groups
 from ..mesh.groups import Groups, by_label
 from ..mesh.surface import CutFrom, Surface
@@ -94,12 +95,9 @@ def cut_along_regions(surface: Surface, regions: Regions) -> tuple[Surface, Grou
     if surface.orientation.face_sign is not None:
         turned = surface.orientation.face_sign[inside] < 0
         faces[turned] = faces[turned][:, [0, 2, 1]]
-    corner = np.repeat(label.astype(np.int64), 3) * surface.n_vertices + faces.ravel()
-    own, position = np.unique(corner, return_inverse=True)
-    vertex = own % surface.n_vertices
-    cut_from = CutFrom(surface, vertex, turned)
-    cut = Surface(surface.points[vertex], position.reshape(-1, 3).astype(np.int32), cut_from=cut_from)
-    return cut, by_label(cut, label, regions.count, "region", regions.names)
+    vertex, region, corners = split_vertices(faces, label, surface.n_vertices, regions.count)
+    cut = Surface(surface.points[vertex], corners, cut_from=CutFrom(surface, vertex, turned))
+    return cut, by_label(cut, label, regions.count, "region", regions.names, region)
 
 
 _SLIPPED = "meant, or a label has slipped; --table faces=PATH has the region of every face"
@@ -138,12 +136,13 @@ def region_notices(cut: Surface, groups: Groups, regions: Regions) -> list[Notic
 def _regions(surface: Surface, given: LabelFile, source: str) -> Regions:
     """The regions of labels: those names that a face has."""
     labels, whole, notices = face_labels(surface, given, source)
-    used = np.unique(labels.codes[labels.codes >= 0])
+    named, of_faces = (np.bincount(each.codes + 1, minlength=len(labels.names) + 1)[1:] > 0 for each in (whole, labels))
+    used = np.flatnonzero(of_faces)
     if not len(used):
         raise InputError(f"{source}: no face has a label, expected at least one that is not negative")
     new = np.full(len(labels.names) + 1, -1, np.int32)
     new[used] = np.arange(len(used))
-    unused = np.setdiff1d(whole.codes[whole.codes >= 0], used)
+    unused = np.flatnonzero(named & ~of_faces)
     names, others = (tuple(labels.names[code] for code in some.tolist()) for some in (used, unused))
     colors = None if labels.colors is None else labels.colors[used]
     return Regions(new[labels.codes], names, others, colors, tuple(notices))

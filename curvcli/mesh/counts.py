@@ -137,7 +137,9 @@ def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     """(n,) indices of the referenced vertices beyond the first at exactly the same position."""
     if surface.cut_from is not None:  # the cut surface has several vertices at one position
         there = surface.cut_from
-        return np.flatnonzero(np.isin(there.vertex, duplicate_vertices(there.surface)))
+        again = np.zeros(there.surface.n_vertices, bool)
+        again[duplicate_vertices(there.surface)] = True
+        return np.flatnonzero(again[there.vertex])
     shared = _shared_keys(lambda: position_keys(surface.xyz_given))
     suspects = np.flatnonzero(shared & surface.referenced)
     first, _ = weld_exact(surface.xyz_given[:, suspects])
@@ -149,6 +151,8 @@ def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
 @cached
 def duplicate_faces(surface: Surface) -> NDArray[np.int64]:
     """(n,) indices of the faces beyond the first with the same three corners in any order."""
+    if surface.cut_from is not None and not len(duplicate_faces(surface.cut_from.surface)):
+        return np.zeros(0, np.int64)
     suspects = np.flatnonzero(_shared_keys(lambda: _corner_keys(surface)))
     if not len(suspects):
         return suspects

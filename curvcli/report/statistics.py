@@ -74,10 +74,11 @@ def grouped_statistics(
     A vertex counts in the group of its faces. Regions are groups of the surface that is cut along them: a vertex on a
     cut counts in each of its regions, with the value and the area that it has in that region.
     """
+    plans: dict[bytes, Any] = {}
     area, segments = analysis.columns["star_area"], _referenced(groups, analysis.surface)
     found: dict[str, dict[str, Floats | Ints]] = {}
     for _, column, values in described(analysis):
-        grouped = GroupedColumn(values, area, segments)
+        grouped = GroupedColumn(values, area, segments, plans=plans)
         found[column] = {name: grouped.statistic(name) for name in names or REPORTED}
     return found
 
