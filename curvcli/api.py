@@ -83,7 +83,8 @@ def analyze(
 ) -> Analysis:
     """Compute curvatures of a surface, their totals and the identities that they must satisfy.
 
-    surface: a Surface, a path, a trimesh.Trimesh or a pair (points (V, 3), faces (F, 3)).
+    surface: a Surface, a path, a binary stream, a mesh of trimesh, pyvista, meshio, open3d, pymeshlab or nibabel, or a
+    pair (points (V, 3), faces (F, 3)).
     passes: a preset (`topology`, `core`, `paper`, `estimates`, `folding`, `all`) or names; None is `core`, and
     `estimates` if `rings` or `radius` is given. area: the cell of `K_density`. mean: the convention for H, κ₁ + κ₂
     (`sum`) or half of it (`average`). orient: `file`, or `outward` to turn closed patches that are inside out; None

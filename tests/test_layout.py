@@ -17,8 +17,8 @@ NAMED = (ast.Name, ast.Attribute)
 PLACES = {
     "rich": ("report/terminal", "commands"),
     "click": ("commands", "__main__.py"),
-    "polars": ("loading", "output", "batch/summary.py"),
-    "trimesh": ("loading", "output/meshes/glb.py"),
+    "polars": ("loading", "output", "batch/summary.py", "analysis/columns.py"),
+    "trimesh": ("loading", "output/meshes/glb.py", "mesh/exports.py"),
 }
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..curvatures.quantity import Element, Quantity
 from ..curvatures.registry import passes
+from ..errors import MissingExtraError
 from ..support.arrays import Array
 
 
@@ -49,3 +50,26 @@ class Columns(Mapping[str, Array]):
 
     def __len__(self) -> int:
         return len(self._quantities)
+
+    def to_polars(self) -> Any:
+        """The columns as a `polars.DataFrame`, vectors by their components; undefined is null, labels are words."""
+        import polars as pl
+
+        return pl.DataFrame([pl.Series(name, values, nan_to_null=True) for name, values in self._scalars().items()])
+
+    def to_pandas(self) -> Any:
+        """The columns as a `pandas.DataFrame`, vectors by their components; undefined is NaN, labels are words.
+
+        Errors: MissingExtraError without pandas.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise MissingExtraError("to_pandas needs pandas: `pip install pandas`") from None
+        return pandas.DataFrame(self._scalars())
+
+    def _scalars(self) -> dict[str, Array]:
+        """Columns of one value per row."""
+        return {
+            name: self[name] for name, (quantity, k) in self._quantities.items() if not quantity.vector or k is not None
+        }

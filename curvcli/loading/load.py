@@ -1,4 +1,4 @@
-"""Surface from a path, a stream, a trimesh.Trimesh, a pair of arrays or another Surface."""
+"""Surface from a path, a stream, a mesh of another library, a pair of arrays or another Surface."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from typing import Any, BinaryIO, Literal
 from ..errors import UsageError
 from ..mesh.polygons import from_file
 from ..mesh.surface import Orient, Surface
+from .given import file_of
 from .objects import is_stream, refusal
 
 
 def load(
-    source: str | os.PathLike[str] | BinaryIO,
+    source: str | os.PathLike[str] | BinaryIO | Any,
     *,
     weld: str | float = "auto",
     orient: Orient = "file",
@@ -24,16 +25,19 @@ def load(
 ) -> Surface:
     """Read a mesh file as the surface it describes: rows in file order, seams never cut, nothing repaired.
 
+    source: a path or a binary stream; also a mesh of trimesh, pyvista, meshio, open3d, pymeshlab or nibabel, whose data
+    become properties, or a pair (points, faces), which keep what they are: the options of files do not apply.
     weld: `auto` (by exact position where the format cuts surfaces, as STL and GLB do, otherwise not at all), `none`,
     `exact`, or a tolerance relative to the diagonal of the bounding box. orient: `outward` turns closed patches
     that are inside out. normals: `file` also reads normals, texture texture coordinates, where the format has records
     of them, as OBJ does; those of a PLY file are among its properties.
-    Errors: InputError, one line with file, place, expectation and way out; TypeError for no path and no stream.
+    Errors: InputError, one line with file, place, expectation and way out; TypeError for any
+    other object.
     """
     from .read import read_mesh_file
 
     if not (isinstance(source, str | bytes | os.PathLike) or is_stream(source)):
-        raise refusal(source, "a path or a binary stream", "curvcli.analyze accepts")
+        return as_surface(source, orient=orient, weld=weld, normals=normals)
     file = read_mesh_file(
         source,
         input_format=input_format,
@@ -53,7 +57,7 @@ def as_surface(
     weld: str | float = "auto",
     normals: Literal["mesh", "file"] = "mesh",
 ) -> Surface:
-    """Convert a Surface, a path, a trimesh.Trimesh or a pair (points, faces) of arrays to a Surface.
+    """Convert a Surface, a path, a mesh of another library or a pair (points, faces) of arrays to a Surface.
 
     orient: None keeps the choice of a Surface and is `file` otherwise. weld: for files only.
     Errors: InputError for a mesh that is no surface; UsageError for `weld` without a file; TypeError for any other
@@ -74,6 +78,9 @@ def as_surface(
     orient = orient or "file"
     if isinstance(given, str | os.PathLike) or is_stream(given):
         return load(given, orient=orient, weld=weld, normals=normals)
+    if not isinstance(given, tuple | list | dict) and (file := file_of(given)) is not None:
+        _check_weld(weld, "none")
+        return from_file(file, orient)
     if hasattr(given, "vertices") and hasattr(given, "faces") and not isinstance(given, type):
         given = given.vertices, given.faces
     if isinstance(given, tuple | list) and len(given) == 2 and not any(isinstance(part, str) for part in given):

@@ -14,6 +14,7 @@ from ..errors import InputError, Notice
 from ..support.arrays import Index, Mask, Sign
 from ..support.words import counted
 from .arrays import as_components, as_triangles, frozen, with_repeated_corner
+from .exports import Exports
 from .groups import Groups, by_label, whole
 from .incidence import Incidence
 from .orientation import Orientation, Uncancelled, closed_patches, orient, orient_stars, uncancelled, uncancelled_rim
@@ -59,7 +60,7 @@ class CutFrom(NamedTuple):
     turned: Mask | None
 
 
-class Surface(Incidence):
+class Surface(Incidence, Exports):
     """A triangle mesh: points and faces, frozen, with its edges, stars, components and orientation.
 
     points: (V, 3) float64 in the file's unit and order. faces: (F, 3) int32 as wound in the file; faces with a repeated

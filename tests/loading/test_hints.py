@@ -138,32 +138,12 @@ def test_a_pattern_between_quotes_names_batch(tmp_path: Path) -> None:
 def given() -> dict[str, Any]:
     pyvista = pytest.importorskip("pyvista")
     mesh = trimesh.Trimesh(POINTS, FACES, process=False)
-
-    class Cloud:  # as open3d has them
-        vertices, triangles = POINTS, FACES
-
-    class Matrices:  # as pymeshlab has them
-        def vertex_matrix(self) -> Any:
-            return POINTS
-
-        def face_matrix(self) -> Any:
-            return FACES
-
-    class Image:  # as nibabel has them
-        darrays = ()
-
-        def agg_data(self) -> Any:
-            return POINTS, FACES
-
+    x, y = np.meshgrid(np.arange(3.0), np.arange(3.0))
     return {
-        "meshio.Mesh": (meshio.Mesh(POINTS, [("triangle", FACES)]), "cells_dict['triangle']"),
-        "PolyData": (pyvista.PolyData.from_regular_faces(POINTS, FACES), "regular_faces"),
-        "UnstructuredGrid": (pyvista.UnstructuredGrid({5: FACES}, POINTS), "extract_surface"),
+        "StructuredGrid": (pyvista.StructuredGrid(x, y, x * y), "mesh.extract_surface()"),
+        "MultiBlock": (pyvista.MultiBlock([pyvista.Sphere()]), "blocks.combine().extract_surface()"),
         "trimesh.Scene": (trimesh.Scene(mesh), "scene.to_mesh()"),
         "trimesh.PointCloud": (trimesh.PointCloud(POINTS), ""),
-        "Cloud": (Cloud(), "numpy.asarray(mesh.triangles)"),
-        "Matrices": (Matrices(), "mesh.face_matrix()"),
-        "Image": (Image(), "image.agg_data()"),
         "the class Mesh": (meshio.Mesh, "pass an object of it"),
         "the class Trimesh": (trimesh.Trimesh, "pass an object of it"),
         "ndarray": (POINTS, ""),
@@ -189,14 +169,12 @@ def test_other_objects_are_a_type_error_that_says_what_is_accepted(kind: str) ->
 
 def test_what_is_to_be_passed_instead_is_accepted() -> None:
     pyvista = pytest.importorskip("pyvista")
-    from_meshio = meshio.Mesh(POINTS, [("triangle", FACES)])
-    from_pyvista = pyvista.UnstructuredGrid({5: FACES}, POINTS).extract_surface(algorithm=None).triangulate()
-    for one in (
-        (from_meshio.points, from_meshio.cells_dict["triangle"]),
-        (from_pyvista.points, from_pyvista.regular_faces),
+    blocks = pyvista.MultiBlock([pyvista.PolyData.from_regular_faces(POINTS, FACES)])
+    for surface in (
+        blocks.combine().extract_surface(algorithm=None),
         trimesh.Scene(trimesh.Trimesh(POINTS, FACES)).to_mesh(),
     ):
-        assert abs(curvcli.analyze(one, passes="topology").totals["K"] - 4 * np.pi) < 1e-12
+        assert abs(curvcli.analyze(surface, passes="topology").totals["K"] - 4 * np.pi) < 1e-12
 
 
 def test_streams_are_read() -> None:

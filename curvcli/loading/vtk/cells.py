@@ -42,6 +42,34 @@ class CellLists:
             raise InputError(f"{len(corners)} corners found, {last} announced by the offsets", place=place)
         return cls(corners, sizes)
 
+    @classmethod
+    def of_lengths(cls, flat: WholeNumbers, place: str, cells: int | None = None) -> CellLists:
+        """Cells of rows of a length and so many corners, one row after the other. cells: their number, if it is known.
+
+        Errors: InputError for lengths that do not fit the numbers.
+        """
+        size = len(flat)
+        width = (int(flat[0]) + 1 if cells is None else size // max(cells, 1)) if size else 0
+        if width > 1 and size % width == 0 and cells in (None, size // width) and (flat[::width] == width - 1).all():
+            return cls(flat.reshape(-1, width)[:, 1:].reshape(-1), np.full(size // width, width - 1))
+        # The place of a length depends on the one before.
+        starts: list[int] = []
+        at, numbers = 0, flat.tolist()
+        while at < size and (cells is None or len(starts) < cells):
+            if numbers[at] < 0:
+                raise InputError(
+                    f"length {numbers[at]} found, 0 or more expected", place=f"{place}, cell {len(starts)}"
+                )
+            starts.append(at)
+            at += numbers[at] + 1
+        if cells is not None and len(starts) < cells:
+            raise InputError(f"{len(starts)} cells found, {cells} announced", place=place)
+        if at != size:
+            raise InputError(f"{at} numbers expected by the lengths of the cells, {size} found", place=place)
+        is_corner = np.ones(size, np.bool_)
+        is_corner[starts] = False
+        return cls(flat[is_corner], flat[starts].astype(np.int64))
+
     @property
     def count(self) -> int:
         """Number of cells."""

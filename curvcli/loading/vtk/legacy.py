@@ -142,25 +142,7 @@ class _Legacy:
 
     def _by_lengths(self, cells: int, size: int, keyword: str) -> CellLists:
         """Cells of versions up to 4: the number of corners of each, then its corners."""
-        flat = self.cursor.numbers("int", size)
-        if not cells:
-            return NONE
-        width = size // cells
-        if width * cells == size and width > 1 and (flat[::width] == width - 1).all():
-            return CellLists(flat.reshape(-1, width)[:, 1:].reshape(-1), np.full(cells, width - 1))
-        # The place of a length depends on the one before.
-        starts, at, numbers = [], 0, flat.tolist()
-        for cell in range(cells):
-            if at >= size or numbers[at] < 0:
-                problem = f"length {numbers[at]} found, 0 or more expected" if at < size else "the list ends early"
-                raise InputError(problem, place=f"{keyword}, cell {cell}")
-            starts.append(at)
-            at += numbers[at] + 1
-        if at != size:
-            raise InputError(f"{at} numbers expected by the lengths of the cells, {size} announced", place=keyword)
-        is_corner = np.ones(size, np.bool_)
-        is_corner[starts] = False
-        return CellLists(flat[is_corner], flat[starts].astype(np.int64))
+        return CellLists.of_lengths(self.cursor.numbers("int", size), keyword, cells)
 
 
 def _number(words: list[str], place: int, cursor: Cursor) -> int:
