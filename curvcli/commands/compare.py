@@ -98,7 +98,7 @@ _CONVENTIONS = (
 def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     """Compare A with B beyond tolerance: topology, totals, checks, columns. Exits with 1 if anything differs.
 
-    A and B are meshes, reports (.json) or vertex tables (.csv .tsv .parquet) of `curvcli analyze`. A mesh
+    A and B are meshes, reports (.json) or vertex tables (.csv .tsv .parquet .jsonl) of `curvcli analyze`. A mesh
     is analysed with the passes and conventions of the report or table on the other side, unless you give
     them: a stored report guards a mesh in CI. Two meshes with equally many vertices are also compared
     vertex by vertex.

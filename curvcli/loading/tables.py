@@ -15,11 +15,11 @@ from ..support.words import unescape_cell
 from .content import free_inflation, open_regular, read_limited, too_large
 from .parquet import check_parquet
 
-SUFFIXES = (".csv", ".tsv", ".parquet")
+SUFFIXES = (".csv", ".tsv", ".parquet", ".jsonl")
 
 
 def read_stored_table(path: str, *, max_bytes: int | None = None) -> dict[str, NDArray[Any]]:
-    """Read a vertex table in .csv, .tsv or .parquet: columns of float64 (NaN is null) or strings (None is null).
+    """Read a vertex table in one of the formats above: columns of float64 (NaN is null) or strings (None is null).
 
     Errors: InputError for a file that is missing, no table, or no vertex table of curvcli.
     """
@@ -44,6 +44,9 @@ def _columns(data: bytes, suffix: str, max_bytes: int | None) -> dict[str, NDArr
         if suffix == ".parquet":
             check_parquet(data, limit)
             frame = pl.read_parquet(data)
+        elif suffix == ".jsonl":
+            _check_keys(data)
+            frame = pl.read_ndjson(data, infer_schema_length=None)
         else:
             separator = "\t" if suffix == ".tsv" else ","
             _check_rows(data, separator.encode())
@@ -66,10 +69,22 @@ def _columns(data: bytes, suffix: str, max_bytes: int | None) -> dict[str, NDArr
             texts = series.cast(pl.String)
             if (size := int(texts.str.len_bytes().sum())) > limit:
                 raise too_large(f"column `{series.name}` of {size} bytes", limit)
-            if suffix != ".parquet" and texts.str.starts_with("'").any():
+            if suffix in (".csv", ".tsv") and texts.str.starts_with("'").any():
                 texts = pl.Series([None if word is None else unescape_cell(word) for word in texts], dtype=pl.String)
             found_columns[series.name] = texts.to_numpy()
     return found_columns
+
+
+def _check_keys(data: bytes) -> None:
+    """Raise InputError for rows with other keys than the first: null cells could outnumber the bytes of the file."""
+    import msgspec
+
+    try:
+        first = msgspec.json.decode(data.partition(b"\n")[0], type=dict[str, float | str | bool | None])
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"no JSON object found ({error})", place="line 1") from None
+    if data.count(b'":') > sum(data.count(msgspec.json.encode(key) + b":") for key in first):
+        raise InputError("rows with other keys than the first found, the same in every row expected")
 
 
 def _check_rows(data: bytes, separator: bytes) -> None:

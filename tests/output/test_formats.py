@@ -31,7 +31,7 @@ def test_a_near_suffix_is_named() -> None:
 
 
 def test_only_the_kinds_asked_for() -> None:
-    with pytest.raises(UsageError, match=r"known: \.csv, \.tsv, \.parquet, \.npz$"):
+    with pytest.raises(UsageError, match=r"known: \.csv, \.tsv, \.parquet, \.npz, \.jsonl$"):
         format_of("b.ply", kinds=["table"])
 
 

@@ -56,3 +56,34 @@ def without(text: bytes, first: bytes, second: bytes) -> NDArray[np.uint8]:
 def numbers(values: NDArray[Any]) -> pl.Series:
     """Values for polars, in native order and contiguous; NaN stays."""
     return pl.Series(np.ascontiguousarray(values))
+
+
+def write_rows(
+    stream: BinaryIO,
+    heads: NDArray[np.integer[Any]],
+    corners: NDArray[np.integer[Any]],
+    sizes: NDArray[np.integer[Any]],
+    tails: NDArray[np.integer[Any]] | None = None,
+) -> None:
+    """Write a line for each polygon: its head, its corners, and the numbers behind them.
+
+    heads (P,), corners concatenated, sizes (P,), tails (P, k).
+    """
+    behind = 0 if tails is None else tails.shape[1]
+    ends = np.cumsum(sizes.astype(np.int64) + 1 + behind)
+    begins = ends - sizes - 1 - behind
+    values = np.empty(int(ends[-1]) if len(ends) else 0, np.int64)
+    is_corner = np.ones(len(values), np.bool_)
+    values[begins], is_corner[begins] = heads, False
+    for k in range(behind):
+        at = ends - behind + k
+        values[at], is_corner[at] = tails[:, k] if tails is not None else 0, False
+    values[is_corner] = corners
+    last = np.zeros(len(values), np.bool_)
+    last[ends - 1] = True
+    for start in range(0, len(values), ROWS_AT_A_TIME):
+        rows = slice(start, start + ROWS_AT_A_TIME)
+        text = np.frombuffer(lines({"value": numbers(values[rows])}), np.uint8).copy()
+        breaks = np.flatnonzero(text == ord("\n"))
+        text[breaks[~last[rows]]] = ord(" ")
+        stream.write(text.data)

@@ -69,6 +69,20 @@ def write_parquet(stream: BinaryIO, columns: Mapping[str, Column], precision: st
         _write_parquet(relay, columns)
 
 
+def write_json_lines(stream: BinaryIO, columns: Mapping[str, Column], precision: str | int, stop: Event | None) -> None:
+    """Write columns as JSON objects, one line each; see `write_table`."""
+    digits = parse_precision(precision)
+    require_threads()
+    _check_names(columns)
+    with _relayed(stream, stop) as relay:
+        for frame in _frames(columns):
+            if stop is not None and stop.is_set():
+                raise InterruptedError("stopped")
+            finite = frame.with_columns(pl.col(pl.Float64).replace([np.inf, -np.inf], None))
+            rows = finite if digits is None else finite.with_columns(_rounded(finite, digits))
+            rows.write_ndjson(cast("IO[bytes]", _regular(stream) or relay))
+
+
 @contextmanager
 def _relayed(stream: BinaryIO, stop: Event | None) -> Iterator[_Relay]:
     """A stream for polars. Errors: those of the stream or of the system, not those that polars makes of them."""

@@ -93,8 +93,8 @@ def _loops(vertices: ElementRows, edges: ElementRows, facets: ElementRows) -> ND
 def _attributes(rows: ElementRows, names: list[str]) -> dict[str, NDArray[np.generic]]:
     properties: dict[str, NDArray[np.generic]] = {}
     for name in names:
-        if (values := rows.attribute(name)) is not None:
-            properties[name] = values
+        values = rows.attribute(name)
+        properties[name] = np.full(rows.count, np.nan) if values is None else values
     return properties
 
 
