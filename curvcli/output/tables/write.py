@@ -80,7 +80,7 @@ def write_json_lines(stream: BinaryIO, columns: Mapping[str, Column], precision:
                 raise InterruptedError("stopped")
             finite = frame.with_columns(pl.col(pl.Float64).replace([np.inf, -np.inf], None))
             rows = finite if digits is None else finite.with_columns(_rounded(finite, digits))
-            rows.write_ndjson(cast("IO[bytes]", _regular(stream) or relay))
+            rows.write_ndjson(cast("IO[bytes]", relay))
 
 
 @contextmanager
