@@ -13,7 +13,7 @@ from .analysis.request import Request
 from .analysis.result import Result, compute
 from .curvatures.catalogue import loaded
 from .curvatures.registry import Registry
-from .curvatures.settings import with_spontaneous_curvature
+from .curvatures.setting_values import with_spontaneous_curvature
 from .loading.load import load
 from .mesh.file import Labels
 from .mesh.surface import Orient, Surface

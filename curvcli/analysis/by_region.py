@@ -9,7 +9,7 @@ import numpy as np
 
 from ..curvatures.quantity import AT_SCALE
 from ..curvatures.registry import passes
-from ..curvatures.settings import OTHERS, SettingValue, find_setting, regions_of
+from ..curvatures.setting_values import OTHERS, SettingValue, find_setting, regions_of
 from ..errors import LackingError
 from ..loading.labels import Regions
 from ..mesh.scale import EstimatorSettings

@@ -17,7 +17,14 @@ from ..curvatures.derived import derived_for
 from ..curvatures.engine import schedule
 from ..curvatures.quantity import AT_SCALE, CELL_AREAS, Configurable, Quantity
 from ..curvatures.registry import passes as registry
-from ..curvatures.settings import GivenSettings, SettingValue, describe_settings, implied, parse_settings, regions_of
+from ..curvatures.setting_values import (
+    GivenSettings,
+    SettingValue,
+    describe_settings,
+    implied,
+    parse_settings,
+    regions_of,
+)
 from ..errors import UsageError
 from ..mesh.precision import precision
 from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales

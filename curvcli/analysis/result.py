@@ -31,7 +31,7 @@ from . import notices as findings
 from .by_region import on_faces, splits_itself, with_regions
 from .columns import Columns, named
 from .request import Request
-from .resolution import beside, of_stars, unscaled
+from .scale_notices import beside, of_stars, unscaled
 from .shares import Partition
 from .totals import columns_for, lost, lost_totals, summed, totals
 

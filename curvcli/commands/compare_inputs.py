@@ -69,7 +69,7 @@ def _made_with(side: LoadedSide) -> dict[str, Any]:
     """Passes and conventions that make a mesh comparable with this stored side."""
     from ..curvatures.catalogue import load_passes
     from ..curvatures.registry import passes
-    from ..curvatures.settings import parse_described
+    from ..curvatures.setting_values import parse_described
     from ..mesh.scale import options_of
 
     load_passes()

@@ -297,7 +297,7 @@ def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str]
     Errors: UsageError for an unknown name or an invalid scale.
     """
     from ..curvatures.catalogue import at_scales, defaults, resolve
-    from ..curvatures.settings import implied
+    from ..curvatures.setting_values import implied
     from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 
     scales = parse_scales(settings["rings"], settings["radius"])

@@ -39,7 +39,7 @@ def merge_settings(options: dict[str, Any]) -> None:
     Errors: UsageError for an unknown name or a value of another type.
     """
     from ..analysis.rigidity import parse_rigidity
-    from ..curvatures.settings import parse_settings, with_spontaneous_curvature
+    from ..curvatures.setting_values import parse_settings, with_spontaneous_curvature
 
     given = with_spontaneous_curvature(options.pop("parameters"), options.pop("spontaneous_curvature"))
     options["parameters"] = parse_settings(given)

@@ -14,7 +14,7 @@ from .quantity import AT_SCALE, Quantity
 from .registry import Registry, passes
 
 # Modules of this folder that declare no pass.
-WITHOUT_PASSES = ("catalogue", "derived", "engine", "quantity", "registry", "setting", "settings")
+WITHOUT_PASSES = ("catalogue", "derived", "engine", "quantity", "registry", "setting", "setting_values")
 
 # The default preset, in the order of the table.
 CORE = (

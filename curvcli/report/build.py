@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from .._version import __version__
 from ..analysis.configuration import configured
-from ..checks.signs import area_fractions
+from ..checks.area_fractions import area_fractions
 from ..checks.special import competing_normals, constant_mean_curvature, steiner
 from ..mesh.counts import classify, count_groups, duplicate_faces, duplicate_vertices
 from ..mesh.groups import Groups

@@ -8,7 +8,7 @@ from ..curvatures.catalogue import load_passes, resolve
 from ..curvatures.derived import DerivedTotal, derived
 from ..curvatures.quantity import CELL_AREA, NO_QUANTITIES, Configurable, Quantity
 from ..curvatures.registry import passes
-from ..curvatures.settings import format_scalar
+from ..curvatures.setting_values import format_scalar
 from ..errors import UsageError
 from ..support.words import suggestion
 

@@ -11,7 +11,7 @@ import pytest
 import curvcli
 from curvcli.curvatures.registry import Registry, curvature_pass, passes
 from curvcli.curvatures.setting import Setting
-from curvcli.curvatures.settings import describe_settings, parse_described, parse_settings
+from curvcli.curvatures.setting_values import describe_settings, parse_described, parse_settings
 from curvcli.errors import UsageError
 from curvcli.support.arrays import Column
 from tests.helpers import meshes

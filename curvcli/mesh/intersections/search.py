@@ -14,8 +14,8 @@ from ..counts import duplicate_vertices
 from ..solids.boxes import BoxTree
 from ..surface import Surface
 from ..welding import weld_exact
+from .contact_points import contact_points, corners_of
 from .pairs import APART, contacts
-from .places import contact_points, corners_of
 from .predicates import orient2d
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...analysis.resolution import STARS
+from ...analysis.scale_notices import STARS
 from ..coloring import along_edges, colored
 from ..pictures.legend import Colored
 from .display import Display

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ...analysis.resolution import STARS
+from ...analysis.scale_notices import STARS
 from ...support.words import counted
 from ..cells import MOST_FACES, Cells, own_cells
 from .camera import screen

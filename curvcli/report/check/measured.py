@@ -9,7 +9,7 @@ from typing import Protocol, get_args, get_type_hints
 import numpy as np
 
 from ...analysis.statistics import GroupedColumn
-from ...checks.signs import area_fractions
+from ...checks.area_fractions import area_fractions
 from ...curvatures.derived import derived
 from ...curvatures.quantity import Quantity
 from ...curvatures.registry import passes
