@@ -22,6 +22,7 @@ from .talk import say
 if TYPE_CHECKING:
     from ..batch.batch import Batch
     from ..batch.model import BatchItem, BatchSettings, Engine, Limits
+    from ..batch.series import Plot
 
 
 @click.command("batch", short_help="Analyse many meshes: workers, timeouts, resume, a summary.")
@@ -40,6 +41,15 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Also write DIR/statistics.csv and .parquet: a row per mesh, region, column and statistic. --stat chooses the "
     "statistics.",
+)
+@click.option(
+    "--plot",
+    "plots",
+    metavar="KEY[,KEY][=NAME]",
+    multiple=True,
+    help="Draw DIR/NAME (series.png): a panel per KEY over the meshes in order, such as willmore, totals.area, "
+    "topology.genus, or with --long columns.h.mean and 'regions.*.totals.area'; repeatable. With --resume nothing is "
+    "computed again.",
 )
 @click.option("--files-from", metavar="LIST|-", help="Read more meshes from a list, one per line or NUL-terminated.")
 @click.option("-j", "--jobs", type=click.IntRange(1), help="Meshes at a time.  [default: one per processor]")
@@ -104,6 +114,7 @@ def run(
     force: bool,
     timeout: float | None,
     max_memory: int | None,
+    plots: tuple[str, ...],
     strict: bool,
     quiet: bool,
     verbose: int,
@@ -125,6 +136,7 @@ def run(
     wanted = saves(save)
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
     items = plan(patterns, files_from, folder, wanted)
+    drawn = _plots(plots, folder, items, conventions["long"])
     with ExitStack() as workers:
         # Workers start while this process imports; the number of meshes left by a resumed batch is not known yet.
         ready = scheduler is None and not resume
@@ -143,9 +155,31 @@ def run(
             finally:
                 workers.close()
                 batch.finish()
+                _draw(drawn, batch)
                 if not quiet:
                     _print_summary(batch, len(todo))
     return worst([row.exit_code for row in batch.rows])
+
+
+def _plots(texts: tuple[str, ...], folder: str, items: Sequence[BatchItem], long: bool) -> list[Plot]:
+    if not texts:
+        return []
+    from ..batch.series import parse_plots
+    from ..curvatures.catalogue import load_passes
+    from ..output.pictures.options import require_pictures
+
+    require_pictures(surface=False)
+    load_passes()
+    return parse_plots(texts, folder, items, long)
+
+
+def _draw(plots: list[Plot], batch: Batch) -> None:
+    """Draw the plots of the ended meshes."""
+    if plots and batch.rows:
+        from ..batch.series import write_plots
+
+        for line in write_plots(batch.folder, plots, batch.rows):
+            say(line)
 
 
 def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **conventions: Any) -> BatchSettings:

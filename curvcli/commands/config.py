@@ -24,7 +24,7 @@ _NOT_DEFAULTS = ("help", "schema")
 
 # Parameters that only the command line may set: files that are written, files and addresses that are read, and
 # --force. A configuration may have come with a download.
-_OUTPUTS = ("output", "outputs", "folder", "tables", "force")
+_OUTPUTS = ("output", "outputs", "folder", "tables", "plots", "force")
 _INPUTS = ("files_from", "scheduler")
 
 Find = Callable[[str], click.Command | None]
