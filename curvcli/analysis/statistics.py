@@ -72,7 +72,7 @@ class GroupedColumn:
         area: Floats,
         segments: Segments,
         used: Mask | None = None,
-        plans: dict[bytes, list[_Batch]] | None = None,
+        plans: dict[bytes, list[_GroupsOfLikeSize]] | None = None,
     ) -> None:
         self._plans = {} if plans is None else plans
         known = ~np.isnan(values)
@@ -187,7 +187,7 @@ class GroupedColumn:
         return self._all(np.sqrt(variance) * self._size)
 
     @cached_property
-    def _batches(self) -> list[_Batch]:
+    def _batches(self) -> list[_GroupsOfLikeSize]:
         """Groups of nearly equal size, together."""
         key = self._sizes.tobytes()
         if key not in self._plans:
@@ -196,7 +196,7 @@ class GroupedColumn:
         return self._plans[key]
 
     @cached_property
-    def _ordered(self) -> list[tuple[_Batch, Floats]]:
+    def _ordered(self) -> list[tuple[_GroupsOfLikeSize, Floats]]:
         """Values of the groups of each batch as rows, ascending; infinite beyond the end of a row."""
         blocks = []
         for batch in self._batches:
@@ -217,7 +217,7 @@ class GroupedColumn:
         return self._all(result)
 
     @cached_property
-    def _cumulated(self) -> list[tuple[_Batch, Floats, Floats]]:
+    def _cumulated(self) -> list[tuple[_GroupsOfLikeSize, Floats, Floats]]:
         """Values of the groups of each batch as rows, ascending, and the area up to and with each."""
         blocks = []
         for batch in self._batches:
@@ -237,7 +237,7 @@ class GroupedColumn:
         return self._all(result)
 
 
-class _Batch(NamedTuple):
+class _GroupsOfLikeSize(NamedTuple):
     """Groups of nearly equal size as rows of one array.
 
     groups: their numbers. sizes: of each. places: (rows, longest) of their members; beyond the end of a row, that of
@@ -259,10 +259,10 @@ class _Batch(NamedTuple):
         return rows
 
 
-def _batches(sizes: Ints, starts: Ints) -> Iterator[_Batch]:
+def _batches(sizes: Ints, starts: Ints) -> Iterator[_GroupsOfLikeSize]:
     """Batches of groups that stand one after the other, none of them empty."""
     if len(sizes) == 1:
-        yield _Batch(np.zeros(1, np.int64), sizes, None, None)
+        yield _GroupsOfLikeSize(np.zeros(1, np.int64), sizes, None, None)
         return
     by_size = np.argsort(sizes, kind="stable")
     ascending = sizes[by_size]
@@ -274,5 +274,5 @@ def _batches(sizes: Ints, starts: Ints) -> Iterator[_Batch]:
         place = np.arange(int(ascending[last - 1]), dtype=np.int32)
         beyond = place >= sizes[groups, None]
         places = starts[groups, None] + np.minimum(place, sizes[groups, None] - 1)
-        yield _Batch(groups, sizes[groups], places, beyond if beyond.any() else None)
+        yield _GroupsOfLikeSize(groups, sizes[groups], places, beyond if beyond.any() else None)
         first = last
