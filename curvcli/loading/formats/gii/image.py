@@ -233,7 +233,10 @@ def _in_rows(text: str, shape: tuple[int, ...]) -> bool:
 
 def _from_base64(text: str) -> bytes:
     try:
-        return binascii.a2b_base64(text.encode("ascii").translate(None, _WHITE), strict_mode=True)
+        data = text.encode("ascii").strip()
+        # Line breaks are rare, and removing them takes a fifth of the time of reading.
+        data = data.translate(None, _WHITE) if any(byte in data for byte in (b"\n", b" ", b"\r", b"\t")) else data
+        return binascii.a2b_base64(data, strict_mode=True)
     except ValueError as error:
         raise InputError(f"malformed base64 data found ({escape_text(str(error))[:60]})") from None
 
