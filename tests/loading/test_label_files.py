@@ -253,3 +253,15 @@ def test_every_truncation_is_refused(kind: str, tmp_path: Path) -> None:
     # The colours of an annotation come first, and its table may be missing; the last value of a label is not used.
     allowed = {"label": range(len(whole) - 4, len(whole)), "gii": [len(whole) - 1]}
     assert set(read) <= set(allowed.get(kind, [4 + 8 * len(few)] if "annot" in kind else []))
+
+
+def test_an_annotation_of_another_surface_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "rh.aparc.annot"
+    for codes in (CODES[:-1], np.append(CODES, 0)):
+        path.write_bytes(annotation(codes))
+        with pytest.raises(InputError, match=rf"{len(codes)} labels, expected 42 \(vertices\)"):
+            faces_of(path)
+    data = annotation()
+    path.write_bytes(data[:4] + integers(7) + data[8:])
+    with pytest.raises(InputError, match="no label of vertex 0, or two, found"):
+        faces_of(path)

@@ -50,7 +50,11 @@ def read_annotation(data: bytes) -> LabelFile:
     """
     file = _BigEndian(data)
     pairs = file.take(2 * max(file.one(), 0)).reshape(-1, 2)
-    index, color = pairs[:, 0].astype(np.int64), pairs[:, 1]
+    pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
+    wrong = np.flatnonzero(pairs[:, 0] != np.arange(len(pairs)))
+    if len(wrong):
+        raise InputError(f"no label of vertex {wrong[0]}, or two, found; one for each of {len(pairs)} expected")
+    color = pairs[:, 1]
     entries = _table(file) if file.place < len(data) and file.one() else {}
     if not entries:
         entries = {
@@ -66,7 +70,7 @@ def read_annotation(data: bytes) -> LabelFile:
         inside = (known[candidate] == color) & (color != 0)
         codes[inside] = candidate[inside]
     colors = np.stack([known & 255, known >> 8 & 255, known >> 16 & 255], axis=1).astype(np.uint8)
-    return LabelFile(Labels(codes, tuple(entries.values()), colors), "vertex", index)
+    return LabelFile(Labels(codes, tuple(entries.values()), colors), "vertex")
 
 
 def _table(file: _BigEndian) -> dict[int, str]:
