@@ -117,6 +117,7 @@ class AnalyzeRun:
         **conventions: Any,
     ) -> None:
         from ..analysis.statistics import parse_statistics
+        from ..output.appearance import REGION
         from ..output.registry import format_of
         from ..output.tables.columns import HISTOGRAM, TABLES
         from ..output.write import check_appearance, needs
@@ -144,6 +145,8 @@ class AnalyzeRun:
             for path in [*self.paths[0], *self.shared.pictures]
         ]
         check_appearance(self.appearance, at_scale, [format.suffix for format in formats])
+        if REGION in self.appearance.color_by and conventions["regions"] is None:
+            raise UsageError("--color-by region: there are none without --regions")
         if any(format.kind == "overlay" for format in formats):
             from ..output.overlays import check_overlays
 

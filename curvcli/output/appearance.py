@@ -6,6 +6,9 @@ from dataclasses import dataclass, field
 
 from .pictures.options import PictureOptions
 
+REGION = "region"
+"""Name of the labels of `--regions` among the columns of `color_by`."""
+
 
 @dataclass(frozen=True)
 class Appearance:

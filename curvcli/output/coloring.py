@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..analysis.result import Result
 from ..curvatures.quantity import Quantity
 from ..curvatures.registry import passes
 from ..errors import UsageError
+from ..support.arrays import Index
 from ..support.words import suggestion
 
 if TYPE_CHECKING:
@@ -17,8 +20,10 @@ if TYPE_CHECKING:
     from .pictures.legend import Colored
 
 
-from .appearance import Appearance
+from .appearance import REGION, Appearance
 from .distributions import common_scale, sample, vertex_quantities
+
+_REGION = Quantity(REGION, kind="label", description="label of --regions")
 
 # Default columns that colour a mesh: the first of these that was computed.
 COLOR_BY = ("K_density", "h_signed", "h", "K", "A")
@@ -35,6 +40,8 @@ def colored_quantity(name: str, chosen: list[str], option: str = "--color-by") -
     along = along_edges()
     if name in along and name not in columns:
         return along[name]
+    if name == REGION and option == "--color-by":
+        return _REGION
     if name not in columns:
         offered = vertex_quantities([quantity.name for quantity in passes.quantities("vertex")])
         if name in offered:
@@ -51,16 +58,19 @@ def color_needs(name: str, chosen: list[str]) -> set[str]:
     quantity = colored_quantity(name, chosen)
     if quantity.on == "edge":
         return {quantity.name, "theta"}
-    return set() if quantity.labels else floor_needs(quantity)
+    return set() if quantity.labels or quantity is _REGION else floor_needs(quantity)
 
 
 def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
     """Column with its colours, the same in every output."""
-    from .pictures.colors import colorize
+    from .pictures.colors import categorize, colorize
     from .pictures.legend import Colored
     from .pictures.rounding_floor import edge_floor
 
     quantity = colored_quantity(name, analysis.chosen)
+    if quantity is _REGION:
+        names, codes, rgb = _vertex_regions(analysis)
+        return Colored(name, replace(quantity, labels=names), categorize(codes, names, rgb))
     if quantity.on == "edge":
         values, theta = (analysis.edges[key].astype(np.float64) for key in (name, "theta"))
         flat = edge_floor(analysis, theta) if quantity.signed else None
@@ -71,6 +81,23 @@ def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
     return Colored(name, quantity, common_scale([column], appearance), column.energy)
 
 
+def _vertex_regions(analysis: Result) -> tuple[tuple[str, ...], Index, NDArray[np.uint8] | None]:
+    """Names of the regions, the region (V,) of most faces at each vertex, and the colours of their table, if any.
+
+    Of several regions with equally many faces, the last; -1 for none. Errors: UsageError without --regions.
+    """
+    regions, surface = analysis.regions, analysis.surface
+    if regions is None:
+        raise UsageError("--color-by region: there are none without --regions")
+    label = np.repeat(regions.face.astype(np.int64), 3)
+    at = surface.faces.reshape(-1)[label >= 0] * np.int64(regions.count) + label[label >= 0]
+    pair, faces = np.unique(at, return_counts=True)
+    pair = pair[np.argsort(faces, kind="stable")]
+    codes = np.full(surface.n_vertices, -1, np.int32)
+    codes[pair // regions.count] = pair % regions.count
+    return regions.names, codes, regions.colors
+
+
 def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] | None:
     """Column that colours the surface, and its colours; None when no column was computed."""
     name = coloring(appearance, analysis.chosen)
@@ -79,5 +106,5 @@ def colors(analysis: Result, appearance: Appearance) -> tuple[str, ColorScale] |
 
 def coloring(appearance: Appearance, chosen: list[str]) -> str | None:
     """The column that colours a mesh."""
-    asked = (name for name in appearance.color_by if name in vertex_quantities(chosen))
+    asked = (name for name in appearance.color_by if name in vertex_quantities(chosen) or name == REGION)
     return next(asked, next((name for name in COLOR_BY if name in chosen), None))

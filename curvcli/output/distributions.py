@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..curvatures.quantity import Quantity
 from ..curvatures.registry import passes
 from ..support.arrays import Floats, Ints, Mask
+from .appearance import REGION
 
 if TYPE_CHECKING:
     from ..analysis.result import Result
@@ -79,7 +80,8 @@ def histograms(appearance: Appearance, chosen: list[str]) -> tuple[tuple[str, ..
     """The columns of each histogram: those asked for, or all numbers of vertices, one by one."""
 
     numbers = (name for name, q in vertex_quantities(chosen).items() if not q.vector and not q.labels)
-    return appearance.histograms or tuple((name,) for name in appearance.color_by or numbers)
+    colored = [name for name in appearance.color_by if name != REGION]
+    return appearance.histograms or tuple((name,) for name in colored or numbers)
 
 
 def histogram_columns(appearance: Appearance, chosen: list[str]) -> tuple[str, ...]:

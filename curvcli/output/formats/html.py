@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, BinaryIO
 
+from ..appearance import REGION
 from ..registry import DocumentFormat, register
 
 if TYPE_CHECKING:
@@ -24,7 +25,10 @@ def write(stream: BinaryIO, analysis: Result, appearance: Appearance, command: s
     from ..coloring import COLOR_BY
     from ..html.page import page
 
-    first = appearance.color_by or tuple(name for name in COLOR_BY if name in analysis.chosen)[:1]
+    first = (
+        tuple(name for name in appearance.color_by if name != REGION)
+        or tuple(name for name in COLOR_BY if name in analysis.chosen)[:1]
+    )
     stream.write(page(analysis, appearance, first, command))
     return []
 

@@ -112,14 +112,17 @@ def _settled(values: NDArray[np.float64], low: float, high: float) -> NDArray[np
     return np.where(np.abs(values - low) <= _ALIKE * abs(low), low, values)
 
 
-def categorize(codes: NDArray[np.integer[Any]], names: tuple[str, ...]) -> ColorScale:
+def categorize(
+    codes: NDArray[np.integer[Any]], names: tuple[str, ...], own: NDArray[np.uint8] | None = None
+) -> ColorScale:
     """Colour labels, each with its own colour; beyond the colours of the map, colours repeat.
 
-    codes: (V,) places in `names`, negative for none.
+    codes: (V,) places in `names`, negative for none. own: (n, 3) colours of the names, instead of those of the map.
     """
     gradient = color_map(CATEGORICAL, CATEGORIES)
     undefined = _undefined(gradient)
-    colors = np.concatenate([np.resize(gradient, (len(names), 3)), [undefined]]).astype(np.uint8)
+    named = np.resize(gradient, (len(names), 3)) if own is None else own
+    colors = np.concatenate([named, [undefined]]).astype(np.uint8)
     indices = np.where(codes < 0, len(names), codes)
     counts = np.bincount(indices, minlength=len(colors)).tolist()
     listed = zip(names, colors.tolist(), counts, strict=False)

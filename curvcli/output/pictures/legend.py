@@ -99,9 +99,10 @@ def about(analysis: Result, quantities: Sequence[Quantity]) -> list[str]:
 
 
 def conventions(analysis: Result, quantities: Sequence[Quantity]) -> list[str]:
-    """Conventions that the columns shown depend on."""
+    """Conventions that the columns shown depend on; labels of regions depend on none."""
     chosen = analysis.conventions
     choices = []
+    quantities = [quantity for quantity in quantities if quantity.kind != "label"]
     if any(quantity.mean_degree for quantity in quantities):
         choices.append("H = κ₁ + κ₂" if chosen.mean == "sum" else "H = (κ₁ + κ₂)/2")
     if any(quantity.signed and quantity.mean_degree for quantity in quantities):
