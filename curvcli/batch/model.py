@@ -65,7 +65,7 @@ class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     configuration: Configuration | None = None
 
     def digest(self) -> str:
-        """Hash that tells a later run if the settings are the same; plug-ins count with their versions."""
+        """Hash by which a later run recognises the same settings; plug-ins count with their versions."""
         from importlib.metadata import entry_points
 
         plug_ins = [(entry.name, entry.dist and entry.dist.version) for entry in entry_points(group="curvcli.passes")]

@@ -20,7 +20,7 @@ from .base import IdentityValues, check, exclude_null, rounding
     applies="not where area_gradient is undefined at a corner of a degenerate face",
     bound="(16 + log₂N)ε · Σ over the corners of faces of the extent · distance from the base; for the "
     "sum of gradients without the distance",
-    failure="the gradient of area is wrong at some vertex; detail says whether its sum is not zero either.",
+    failure="the gradient of area is wrong at some vertex; detail names its sum if that is not zero either.",
     after="vector_area",
 )
 def area_gradient(

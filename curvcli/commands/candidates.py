@@ -147,7 +147,7 @@ def completing(command: click.Command) -> click.Command:
 
 
 class _Metavar(click.types.StringParamType):
-    """Text whose metavar says how it is completed: capitals mean files or folders, lower-case words are choices."""
+    """Text that is completed by its metavar: capitals mean files or folders, lower-case words are choices."""
 
     def __init__(self, metavar: str) -> None:
         self.choices = metavar.rstrip(".").split("|")

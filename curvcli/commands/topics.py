@@ -66,7 +66,7 @@ def _checks() -> str:
     return (
         _table("Identities, which hold on every mesh up to rounding", stated)
         + "\nTolerances are derived rounding-error bounds, not chosen constants. A pass proves the arithmetic and the\n"
-        "counting. Use requirements to check that the mesh is sound, or the one you meant.\n\n"
+        "counting. Use requirements to check that the mesh is sound, and the one you intend.\n\n"
         + _table("Requirements (check --require, --allow); * required by default", required)
         + "\n"
         + _table("Sets of requirements (check --require)", [(name, ", ".join(SETS[name])) for name in SETS])

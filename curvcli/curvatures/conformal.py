@@ -61,7 +61,7 @@ def willmore_conformal(surface: Surface, beta: Column) -> Column:
     """Bobenko's conformal energy of the vertex, never negative.
 
     An inversion about p turns the circumcircles at p into the lines of a closed polygon, and β_e into its turning
-    angles, whose sum is at least 2π (Fenchel). What falls short of that is rounding, and taken as 0.
+    angles, whose sum is at least 2π (Fenchel). A sum below that is due to rounding, and its energy is 0.
     """
     total = np.zeros(surface.n_vertices)
     for block in slices(len(beta)):

@@ -220,7 +220,7 @@ def kappa_across(surface: Surface, theta: Column, edge_length: Column, face_area
     """Curvature across the edge: its bend per width of its two faces, positive where convex.
 
     The curvature of a tessellated fillet or cylinder. An edge that bends more than the angular step of a tessellation
-    is sharp: its radius is 0, and this number only tells how wide its faces are.
+    is sharp: its radius is 0, and this number depends on the width of its faces only.
     """
     curvature = np.full(len(surface.edges), np.nan)
 

@@ -22,7 +22,7 @@ _EXPECTED = {
     "str": "a text",
 }
 _TRUTH = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
-# Words of an annotation that say that a parameter may differ from face to face.
+# Words in the annotation of a parameter that may differ from face to face.
 _ARRAYS = {"Column", "NDArray", "ndarray"}
 
 
@@ -89,7 +89,7 @@ def split_signature(
 ) -> tuple[tuple[str, ...], tuple[Setting, ...]]:
     """The names of a function's needs, and its settings: the parameters that have a default.
 
-    described: what the signature cannot say, by name.
+    described: descriptions and limits of the settings, by name.
     Errors: UsageError for a default of another type, or a description of no parameter.
     """
     name = function.__name__

@@ -99,7 +99,7 @@ def boundary_loops(surface: Surface) -> Boundary:
     """Order the boundary of a surface into curves, sorted by their lowest vertex; a closed curve starts at it.
 
     They run with the surface on their left, seen from the tip of ν; on a patch without an orientation as the file winds
-    the face at the curve's first edge (a, b), the lowest. Where fans of faces touch in a vertex each keeps its own
+    the face at the curve's first edge (a, b), the lowest. At a vertex of several fans each fan keeps its own
     boundary, so that curves pass through such vertices and stay closed; they end only at vertices where their fan runs
     into an edge with more than two faces, and are open then. Linear in the boundary.
     """

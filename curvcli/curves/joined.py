@@ -39,8 +39,8 @@ class _Chains:
 def join(polylines: Polylines) -> Joined:
     """Join records end to end: two that end in one vertex, and nothing else there, are one curve.
 
-    Where more than two edges meet in a vertex at which a record ends, all curves end: no pair of them is the one that
-    goes on. A record that passes through its own vertices goes on as it says. A record whose last vertex is its first
+    All curves end at a vertex of more than two edges at which a record ends: no pair of them is the one that goes on.
+    A record that passes through its own vertices goes on in its own order. A record whose last vertex is its first
     is a closed curve by itself, and joins nothing. A curve begins and runs as its first record does; curves come in the
     order of these. A record that stays in a vertex of others is left out, since it adds no edge.
     Sorts the ends; the rest is linear.

@@ -16,7 +16,7 @@ from .polygon import Curves, Rows
 from .turning import Turning
 
 MAX_EDGES = 20_000
-"""Edges of the largest double sum that is done unless more is asked for: some ten seconds."""
+"""Edges of the largest double sum by default: about ten seconds."""
 
 UNSURE = 0.25
 """Turns: where the bound of the error is larger, no value is given, and no integer that follows from one."""

@@ -18,8 +18,8 @@ from .label_files.base import LabelFile, LabelledElement
 def face_labels(surface: Surface, given: LabelFile, source: str) -> tuple[Labels, Labels, list[Notice]]:
     """Labels (F,) of the triangles, the labels as given, and notices of choices that were made.
 
-    Without a column or header that says it, their number decides what they belong to: polygons of the file, triangles,
-    vertices, in this order. A polygon's label passes to its triangles. source: in messages.
+    Without a column or header of elements, their number decides: polygons of the file, triangles, vertices, in this
+    order. A polygon's label passes to its triangles. source: in messages.
     Errors: InputError for labels of another number, that are no whole numbers, or of elements that are not there.
     """
     size = len(given.values.codes) if isinstance(given.values, Labels) else _length(given.values, source)
@@ -76,7 +76,7 @@ def _counts(surface: Surface) -> dict[LabelledElement, int]:
 
 
 def _element(surface: Surface, size: int, header: bool, source: str) -> tuple[LabelledElement, bool]:
-    """What so many labels belong to, and whether the first of them is a header."""
+    """The element of so many labels, and a flag: the first of them is a header."""
     counts = _counts(surface)
     for first in range(2 if header else 1):
         for element, count in counts.items():

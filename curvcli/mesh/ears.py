@@ -13,7 +13,7 @@ _ROUNDING = 2.0**-48
 def clip_ears(p: NDArray[np.float64], most: int) -> tuple[NDArray[np.intp], bool, int]:
     """Triangulate a counter-clockwise polygon p (2, k): triangles (k - 2, 3), a flag, and the effort.
 
-    The flag says that p is simple and that all triangles are ears. p has size 1. An ear is a convex corner whose
+    The flag is true if p is simple and all triangles are ears. p has size 1. An ear is a convex corner whose
     triangle contains no other corner; only reflex corners between the left and the right end of the triangle are
     tested. An ear with a corner within rounding of its border is cut only if there is no better one. A polygon that
     crosses itself, or takes more than the given effort, is finished as a fan.

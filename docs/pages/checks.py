@@ -94,9 +94,9 @@ _ELSEWHERE = r"""
 | `dirichlet_energy` | ½ Σ \|∇f\|² area = ¼ Σ cot θ \|opposite edge\|²: both formulas of its energy agree |
 | `nonconformality` | Σ ½(σ₁ − σ₂)² area = E(f) − area f(M) ≥ 0 |
 
-With `uv` for B, f is the map to the texture coordinates of A. Where the corners of two faces at an edge have different
-coordinates the texture has a seam: f is continuous on the surface cut open along its seams, E(f) is the energy there,
-the sum over all faces, and both identities hold as they do on every surface.
+With `uv` for B, f is the map to the texture coordinates of A. The texture has a seam at an
+edge whose two faces have different coordinates there: f is continuous on the surface cut open along its seams, E(f) is
+the energy there, the sum over all faces, and both identities hold as they do on every surface.
 
 The column `orientation` of the table of faces is +1, or −1 where f turns a face over against most of the area of its
 patch. Into a plane it is the sign of det df. Between surfaces in space a face has no side of its own, and the sign is

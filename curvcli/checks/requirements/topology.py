@@ -61,7 +61,7 @@ def oriented(surface: Surface) -> str:
 @requirement(
     "consistent-winding",
     default=True,
-    remedy="turn the faces in the file; the computation turns them for itself and says how many",
+    remedy="turn the faces in the file; the computation turns its own copies and counts them",
     after="oriented",
 )
 def consistent_winding(surface: Surface) -> str:
@@ -116,7 +116,7 @@ def connected(surface: Surface) -> str:
 @requirement(
     "genus",
     "N",
-    remedy="look for a handle or a hole nobody wanted; `--table components=PATH` has χ and loops of each part",
+    remedy="look for an unintended handle or hole; `--table components=PATH` has χ and loops of each part",
     after="connected",
 )
 def genus(surface: Surface, wanted: float) -> str:
@@ -131,7 +131,7 @@ def genus(surface: Surface, wanted: float) -> str:
 @requirement(
     "euler",
     "N",
-    remedy="look for a handle, a hole or a part nobody wanted; `--table components=PATH` has χ of each part",
+    remedy="look for an unintended handle, hole or part; `--table components=PATH` has χ of each part",
     after="genus",
 )
 def euler(surface: Surface, wanted: float) -> str:

@@ -109,7 +109,7 @@ def _gather(
 
 
 def _orders() -> tuple[Ints, Ints, Ints]:
-    """By the nine bits that say which corners are equal: the number of shared corners, and for each of the two faces
+    """By the nine bits of equal pairs of corners: the number of shared corners, and for each of the two faces
     (3, 512) its corners, the shared ones first, in the order of the first face."""
     shared, orders = np.zeros(512, np.int64), np.zeros((2, 3, 512), np.int64)
     for code in range(512):

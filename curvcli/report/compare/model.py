@@ -89,7 +89,7 @@ def table(comparison: Comparison) -> dict[str, Any]:
 
 
 def as_text(value: Any) -> str:
-    """A value of either side as text that says every digit."""
+    """A value of either side as text with every digit."""
     if value is None:
         return "null"
     if isinstance(value, list):

@@ -33,8 +33,8 @@ _ZLIB_OR_GZIP = zlib.MAX_WBITS | 32
 class DataArray:
     """An array of a GIFTI file.
 
-    intent: the code of NIfTI, such as POSITIONS. values: in the shape that the file says. name: of its metadata, else
-    of its intent. transformed: whether it has a matrix other than the identity.
+    intent: the code of NIfTI, such as POSITIONS. values: in the shape of the file. name: of its metadata, else of its
+    intent. transformed: true for a matrix other than the identity.
     """
 
     intent: int

@@ -26,7 +26,7 @@ def parse_off(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     """Parse an OFF file.
 
     Faces have any number of corners. Behind its corners a face may have an index of a colour map, or a colour of 3 or 4
-    numbers; vertices have what the letters before OFF say. The first word may be missing.
+    numbers; the letters before OFF name the values of vertices. The first word may be missing.
     Errors: InputError with the line of a malformed row.
     """
     sign = SIGN.match(pieces.ahead())
