@@ -229,6 +229,11 @@ drawing = together(
         type=click.IntRange(1, 1000),
         help="Bins of histograms within their range, per column.  [default: 2 ∛n for n values, from 10 to 60]",
     ),
+    click.option(
+        "--columns",
+        metavar="NAME[,NAME]",
+        help="Columns of the tables of --table, in this order, such as region,area,h_area_mean.",
+    ),
     click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis."),
     click.option(
         "--range", "value_range", metavar="LO:HI|pNN", help="Ends of the colour map, or a central percentage."
@@ -288,7 +293,8 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
     cmap, value_range, quality = (settings.pop(key) for key in ("cmap", "value_range", "quality"))
     picture = PictureOptions(view, up, parse_size(size), background, edges, settings.pop("dpi"))
     histograms = tuple(dict.fromkeys(map(_listed, settings.pop("histograms"))))
-    return Appearance(columns, cmap, value_range, precision, quality, histograms, settings.pop("bins"), picture)
+    bins, table_columns = settings.pop("bins"), _listed(settings.pop("columns") or "")
+    return Appearance(columns, cmap, value_range, precision, quality, histograms, bins, table_columns, picture)
 
 
 def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str], list[str]]:

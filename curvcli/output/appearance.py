@@ -16,7 +16,8 @@ class Appearance:
 
     color_by: the columns of a picture; the first of them colours a mesh. quality: true if `.ply` also has that column
     as `quality`, the name that MeshLab colours by. histograms: one column, or two against each other, for each of them;
-    none for `color_by`. bins: of every histogram, None for a number by the rule of `distributions.axis`.
+    none for `color_by`. bins: of every histogram, None for a number by the rule of `distributions.axis`. columns: of
+    the tables of `--table`, none for all.
     """
 
     color_by: tuple[str, ...] = ()
@@ -26,6 +27,7 @@ class Appearance:
     quality: bool = False
     histograms: tuple[tuple[str, ...], ...] = ()
     bins: int | None = None
+    columns: tuple[str, ...] = ()
     picture: PictureOptions = field(default_factory=PictureOptions)
 
 

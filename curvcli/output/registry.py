@@ -47,11 +47,15 @@ class Format:
 class TableFormat(Format):
     """A format of tables.
 
-    write: takes a stream, columns by name, the precision, and an Event that ends the writing or None.
+    write: takes a stream, columns by name, the precision, and an Event that ends the writing or None. totals: writes
+    the totals of a result where -o names the format, in place of the table of vertices. brief: whether tables of
+    regions and components leave out counts and other values that a paper seldom shows.
     """
 
     kind: OutputKind = "table"
     write: Callable[[BinaryIO, Mapping[str, Any], str | int, Event | None], None]
+    totals: Callable[[BinaryIO, Result, Appearance], None] | None = None
+    brief: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,8 +17,17 @@ from .atomic import Outputs
 from .coloring import color_needs, colored_quantity, colors
 from .distributions import histogram_columns, samples_of
 from .pictures.options import check_picture_options, parse_view
-from .registry import DocumentFormat, Format, MeshFormat, OverlayFormat, format_of, output_formats
-from .tables.columns import HISTOGRAM, ROWS_IN_A_FRAME, TABLES, Table, vertex_properties, vertex_table
+from .registry import DocumentFormat, Format, MeshFormat, OverlayFormat, TableFormat, format_of, output_formats
+from .tables.columns import (
+    HISTOGRAM,
+    ROWS_IN_A_FRAME,
+    TABLES,
+    Table,
+    brief_table,
+    chosen_columns,
+    vertex_properties,
+    vertex_table,
+)
 from .tables.histogram import histogram_table
 
 if TYPE_CHECKING:
@@ -102,6 +111,9 @@ def write_into(
                         line, lost = write_overlay(stream, analysis, path, format, appearance)
                     notices += lost
                     ranges.append(f"{path}: {line}")
+                elif isinstance(format, TableFormat) and format.totals is not None:
+                    with outputs.open(path) as stream:
+                        format.totals(stream, analysis, appearance)
             if checked is not None:
                 checked.result()
             for path, format in formats.items():
@@ -125,9 +137,16 @@ def _tables(
 ) -> Iterator[tuple[str, Table, str]]:
     """Path, columns and suffix of every requested table."""
     for kind, path in others:
-        suffix = format_of(path, name=stream_format if path == "-" else None, kinds=["table"]).suffix
-        yield path, _table(kind, analysis, appearance), suffix
-    table_paths = [path for path, format in formats.items() if format.kind == "table"]
+        format = format_of(path, name=stream_format if path == "-" else None, kinds=["table"])
+        table = _table(kind, analysis, appearance)
+        if appearance.columns:
+            table = chosen_columns(table, appearance.columns)
+        elif isinstance(format, TableFormat) and format.brief:
+            table = brief_table(table)
+        yield path, table, format.suffix
+    table_paths = [
+        path for path, format in formats.items() if isinstance(format, TableFormat) and format.totals is None
+    ]
     columns = vertex_table(analysis) if table_paths else {}
     yield from ((path, columns, formats[path].suffix) for path in table_paths)
 

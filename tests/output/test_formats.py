@@ -31,7 +31,7 @@ def test_a_near_suffix_is_named() -> None:
 
 
 def test_only_the_kinds_asked_for() -> None:
-    with pytest.raises(UsageError, match=r"known: \.csv, \.tsv, \.parquet, \.npz, \.jsonl$"):
+    with pytest.raises(UsageError, match=r"known: \.csv, \.tsv, \.parquet, \.npz, \.jsonl, \.tex$"):
         format_of("b.ply", kinds=["table"])
 
 

@@ -9,7 +9,9 @@ import numpy as np
 
 from ...curvatures.quantity import Element
 from ...curvatures.registry import passes
+from ...errors import UsageError
 from ...mesh.file import Labels
+from ...support.words import suggestion
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
@@ -200,6 +202,26 @@ def histograms(analysis: Result) -> Table:
     from .histogram import histogram_table
 
     return histogram_table(samples_of(analysis, DEFAULT), DEFAULT)
+
+
+def brief_table(table: Table) -> Table:
+    """A table of regions or components without counts of the topology and the parts that few papers show."""
+    from ...report.model import Topology
+
+    left_out = {*Topology.__struct_fields__} - {"component"}
+    left_out |= {"name"}
+    prefixes = ("cmc_", "minimal_", "steiner_", "normals_", "fractions_")
+    if not ("region" in table or "component" in table):
+        return table
+    return {name: each for name, each in table.items() if name not in left_out and not name.startswith(prefixes)}
+
+
+def chosen_columns(table: Table, names: Sequence[str]) -> Table:
+    """The named columns of a table in their order. Errors: UsageError for a name that it does not have."""
+    for name in names:
+        if name not in table:
+            raise UsageError(f"--columns {name}: the table has no such column{suggestion(name, table)}")
+    return {name: table[name] for name in names}
 
 
 HISTOGRAM = "histogram"

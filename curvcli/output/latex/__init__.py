@@ -1,0 +1,1 @@
+"""LaTeX tables, for papers."""
