@@ -121,7 +121,11 @@ def of_types(cells: CellLists, types: WholeNumbers, vertices: int) -> CellFaces:
 
     Errors: InputError for curved faces, and for a number of corners that the type does not have.
     """
-    present = {int(kind): int(count) for kind, count in zip(*np.unique(types, return_counts=True), strict=True)}
+    if len(types) and not 0 <= int(types.min()) <= int(types.max()) <= 255:
+        raise InputError("type of a cell beyond 0 to 255 found")
+    types = types.astype(np.uint8, copy=False)
+    counts = np.bincount(types, minlength=256)
+    present = {kind: int(counts[kind]) for kind in np.flatnonzero(counts).tolist()}
     if curved := {name_of(kind): count for kind, count in present.items() if is_curved(kind)}:
         raise InputError(f"{count_of(sum(curved.values()), 'curved face')} found", hint=STRAIGHT)
     for kind in present.keys() & CORNERS.keys():
@@ -133,8 +137,8 @@ def of_types(cells: CellLists, types: WholeNumbers, vertices: int) -> CellFaces:
     for kind, count in present.items():
         if kind not in (*FACES, *LINES):
             others[name_of(kind)] += count
-    lines = _checked(cells.of(np.isin(types, LINES)), "line", vertices) if present.keys() & {*LINES} else NONE
-    is_face = np.isin(types, FACES)
+    lines = _checked(cells.of(_is_in(types, LINES)), "line", vertices) if present.keys() & {*LINES} else NONE
+    is_face = _is_in(types, FACES)
     faces = cells.of(is_face)
     corners = checked_corners(faces.corners, faces.sizes, "face", vertices)
     cell = None if is_face.all() else np.flatnonzero(is_face)
@@ -151,6 +155,12 @@ STRAIGHT = (
     "a surface of flat triangles or polygons is expected: "
     """`python -c "import pyvista; pyvista.read('IN').extract_surface().save('OUT.ply')"` makes one"""
 )
+
+
+def _is_in(types: WholeNumbers, kinds: Sequence[int]) -> NDArray[np.bool_]:
+    table = np.zeros(256, np.bool_)
+    table[[*kinds]] = True
+    return table[types]
 
 
 def _checked(cells: CellLists, name: str, vertices: int) -> CellLists:

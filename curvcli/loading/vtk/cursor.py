@@ -83,8 +83,11 @@ class Cursor:
         found = _PARAGRAPH.search(self.data, self.at)
         self.at = found.end() if found else len(self.data)
 
-    def numbers(self, kind: str, count: int) -> NDArray[Any]:
-        """The next numbers. Errors: InputError for an unknown type, or fewer of them."""
+    def numbers(self, kind: str, count: int, *, kept: bool = True) -> NDArray[Any]:
+        """The next numbers. kept: in memory of their own, not that of the file.
+
+        Errors: InputError for an unknown type, or fewer of them.
+        """
         name = kind.lower()
         if name == "bit":
             if self.text:
@@ -95,8 +98,8 @@ class Cursor:
         dtype = np.dtype(TYPES[name])
         if self.text:
             return self._tokens(np.dtype("i8") if name == "vtkidtype" else dtype, count)
-        big = dtype.newbyteorder(">")
-        return np.frombuffer(self._take(count * dtype.itemsize), big).astype(dtype)
+        values = np.frombuffer(self._take(count * dtype.itemsize), dtype.newbyteorder(">"))
+        return values.astype(dtype) if kept else values
 
     def words(self, count: int) -> list[str]:
         """The next texts: one per line, percent-encoded, or with their lengths before them."""
@@ -105,7 +108,7 @@ class Cursor:
         if count > len(self.data) - self.at:
             raise self._short(count, "text")
         if not self.text:
-            return [decode(self._take(self._length())) for _ in range(count)]
+            return [decode(bytes(self._take(self._length()))) for _ in range(count)]
         texts = []
         for _ in range(count):
             end = self.data.find(b"\n", self.at)
@@ -119,13 +122,13 @@ class Cursor:
         first = self._take(1)[0]
         size = {3: 1, 2: 2, 1: 4, 0: 8}[first >> 6]
         rest = self._take(size - 1)
-        return int.from_bytes(bytes([first & 63]) + rest, "big")
+        return int.from_bytes(bytes([first & 63]) + bytes(rest), "big")
 
-    def _take(self, count: int) -> bytes:
+    def _take(self, count: int) -> memoryview:
         if count > len(self.data) - self.at:
             raise self._short(count, "byte")
         self.at += count
-        return self.data[self.at - count : self.at]
+        return memoryview(self.data)[self.at - count : self.at]
 
     def _short(self, count: int, what: str) -> InputError:
         left = len(self.data) - self.at

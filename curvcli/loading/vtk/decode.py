@@ -51,8 +51,8 @@ class Decoder:
     base64: bool
     limit: int
 
-    def numbers(self, array: XmlElement, count: int) -> NDArray[Any]:
-        """The numbers of an array, `count` of them.
+    def numbers(self, array: XmlElement, count: int, *, kept: bool = True) -> NDArray[Any]:
+        """The numbers of an array, `count` of them. kept: in memory of their own, not that of the file.
 
         Errors: InputError for an unknown type, another number of values, or damaged data.
         """
@@ -66,9 +66,9 @@ class Decoder:
             if array.attributes.get("format", "ascii") == "ascii":
                 return numbers_of_text(self._text(array), np.dtype(TYPES[kind]), count)
             values = np.frombuffer(self._bytes(array, count * dtype.itemsize), dtype)
-            return values.astype(dtype.newbyteorder("="))
+            return values.astype(dtype.newbyteorder("=")) if kept else values
         except InputError as error:
-            error.place = error.place or f"array `{name[:80]}`"
+            error.place = error.place or (f"array `{name[:80]}`" if name else "array without a name")
             raise
 
     def words(self, array: XmlElement, count: int) -> list[str]:

@@ -38,10 +38,11 @@ class XmlElement:
 
 @dataclass
 class Document:
-    """The root, the comments, and the position behind the start tag of the appended data; -1 without them."""
+    """The root, the comments, the element of appended data, and the position behind its start tag; -1 without it."""
 
     root: XmlElement
     comments: list[str]
+    data: XmlElement | None = None
     appended: int = -1
 
 
@@ -66,7 +67,6 @@ class _Scan:
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
         self.parser.CommentHandler = self.comments.append
-        self.parser.StartDoctypeDeclHandler = self._refuse_doctype
 
     def document(self) -> Document:
         at, size = 0, len(self.data)
@@ -82,7 +82,7 @@ class _Scan:
                 at = self._end_of_markup(begin)
                 self.parser.Parse(self.data[begin:at], False)
                 if self.stack and self.stack[-1].name == "AppendedData":
-                    return Document(self.root or self.stack[0], self.comments, at)
+                    return Document(self.root or self.stack[0], self.comments, self.stack[-1], at)
             self.parser.Parse(self.data[at:], True)
         except expat.ExpatError as error:
             reason = expat.ErrorString(error.code)
@@ -92,6 +92,8 @@ class _Scan:
 
     def _end_of_markup(self, begin: int) -> int:
         """Position behind the tag, comment or instruction that begins here."""
+        if self.data.startswith(b"<!DOCTYPE", begin):
+            raise InputError("a document type declaration found, none expected", hint="entities are never expanded")
         for start, end in ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<![", b"")):
             if self.data.startswith(start, begin):
                 if not end:
@@ -121,6 +123,3 @@ class _Scan:
 
     def _end(self, name: str) -> None:
         self.stack.pop()
-
-    def _refuse_doctype(self, name: str, system: str | None, public: str | None, internal: bool) -> None:
-        raise InputError("a document type declaration found, none expected", hint="entities are never expanded")

@@ -107,11 +107,9 @@ class _Legacy:
                 raise InputError("a second POINTS found, one expected", place=cursor.place)
             if len(words) < 3:
                 raise InputError("POINTS without a number and a type found", place=cursor.place)
-            self.points = cursor.numbers(words[2], 3 * _number(words, 1, cursor)).reshape(-1, 3)
+            self.points = cursor.numbers(words[2], 3 * _number(words, 1, cursor), kept=False).reshape(-1, 3)
         elif keyword == "CELL_TYPES":
             self.types = cursor.numbers("int", _number(words, 1, cursor))
-            if len(self.types) and (self.types.min() < 0 or self.types.max() > 255):
-                raise InputError("a type of cells beyond 0 to 255 found", place="CELL_TYPES")
         elif keyword in (_LISTS if self.kind == "POLYDATA" else ("CELLS",)):
             if keyword in self.lists:
                 raise InputError(f"a second {keyword} found, one expected", place=cursor.place)
@@ -135,14 +133,14 @@ class _Legacy:
         if len(words) < 2 or words[0].upper() != name:
             found = " ".join(words)[:40]
             raise InputError(f"`{escape_text(found)}` found, {name} and a type expected", place=self.cursor.place)
-        values = self.cursor.numbers(words[1], count)
+        values = self.cursor.numbers(words[1], count, kept=False)
         if values.dtype.kind == "f":
             raise InputError(f"{name} of type {words[1][:40]} found, an integer type expected", place=self.cursor.place)
         return values
 
     def _by_lengths(self, cells: int, size: int, keyword: str) -> CellLists:
         """Cells of versions up to 4: the number of corners of each, then its corners."""
-        return CellLists.of_lengths(self.cursor.numbers("int", size), keyword, cells)
+        return CellLists.of_lengths(self.cursor.numbers("int", size, kept=False), keyword, cells)
 
 
 def _number(words: list[str], place: int, cursor: Cursor) -> int:

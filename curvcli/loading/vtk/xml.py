@@ -68,8 +68,8 @@ def _decoder(data: bytes, document: Document, options: ParserOptions) -> Decoder
     if header not in ("UInt32", "UInt64"):
         raise InputError(f"header type `{header[:40]}` found, UInt32 or UInt64 expected")
     appended, encoding = -1, "base64"
-    if document.appended >= 0:
-        encoding = next(document.root.all("AppendedData")).attributes.get("encoding", "base64")
+    if document.data is not None:
+        encoding = document.data.attributes.get("encoding", "base64")
         begin = _BEHIND_UNDERSCORE.match(data, document.appended)
         if encoding not in ("raw", "base64") or begin is None:
             raise InputError("appended data without `_` or encoding raw or base64", place=f"byte {document.appended}")
@@ -124,7 +124,7 @@ def _points(piece: XmlElement, count: int, decoder: Decoder) -> NDArray[Any]:
         raise InputError(f"{len(arrays)} arrays of points found, one expected")
     if arrays[0].attributes.get("NumberOfComponents", "1") != "3":
         raise InputError("points without three components found")
-    return decoder.numbers(arrays[0], 3 * count).reshape(-1, 3)
+    return decoder.numbers(arrays[0], 3 * count, kept=False).reshape(-1, 3)
 
 
 def _array(piece: XmlElement, section: str, name: str, count: int, decoder: Decoder) -> NDArray[Any]:
@@ -132,7 +132,7 @@ def _array(piece: XmlElement, section: str, name: str, count: int, decoder: Deco
     for element in piece.all(section):
         for array in element.arrays():
             if array.attributes.get("Name") == name:
-                values = decoder.numbers(array, count)
+                values = decoder.numbers(array, count, kept=array.attributes.get("type") == "Int32")
                 if values.dtype.kind == "f":
                     raise InputError(f"array `{name}` of {section} holds fractions, integers expected")
                 return values

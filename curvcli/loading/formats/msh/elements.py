@@ -20,7 +20,7 @@ class Elements:
 
     nodes: NDArray[np.int64]
     sizes: NDArray[np.int64]
-    kinds: NDArray[np.int64]
+    kinds: NDArray[np.uint8]
     groups: NDArray[np.int64]
     entities: NDArray[np.int64]
 
@@ -43,19 +43,18 @@ class ElementBlocks:
 
     def elements(self) -> Elements:
         """All elements."""
-        none = [np.empty(0, np.int64)]
-        kinds, sizes, counts = (
-            (np.array(column, np.int64) for column in zip(*self.columns, strict=True))
-            if (self.columns)
-            else (none[0], none[0], none[0])
-        )
+        kinds, sizes, counts = np.array(self.columns, np.int64).reshape(-1, 3).T
         return Elements(
-            np.concatenate(self.nodes or none),
+            _joined(self.nodes),
             np.repeat(sizes, counts),
-            np.repeat(kinds, counts),
-            np.concatenate(self.groups or none),
-            np.concatenate(self.entities or none),
+            np.repeat(kinds.astype(np.uint8), counts),
+            _joined(self.groups),
+            _joined(self.entities),
         )
+
+
+def _joined(arrays: list[NDArray[np.int64]]) -> NDArray[np.int64]:
+    return arrays[0] if len(arrays) == 1 else np.concatenate([np.empty(0, np.int64), *arrays])
 
 
 def nodes_of(kind: int) -> int:

@@ -61,7 +61,7 @@ def parse_msh(data: bytes, options: ParserOptions) -> MeshFile:
                 begin += 4
         elif name == "NOD":
             raise InputError("Gmsh format 1 found, 2 or later expected", hint=_CONVERT)
-        end = data.find(b"$End" + section[1], begin)
+        end = begin if binary and name in _READ else data.find(b"$End" + section[1], begin)
         if end < 0:
             raise InputError(f"no $End{name} found", place=f"${name}", hint="the file was cut off")
         if name == "PhysicalNames":
@@ -76,7 +76,9 @@ def parse_msh(data: bytes, options: ParserOptions) -> MeshFile:
                 read = MshSection.of_text(name, data, begin, end)
             _read(content, read, version)
             end = data.find(b"$End" + section[1], read.at if binary else end)
-            if end < 0 or (binary and data[read.at : end].strip()) or (not binary and read.left):
+            if end < 0:
+                raise InputError(f"no $End{name} found", place=f"${name}", hint="the file was cut off")
+            if (binary and data[read.at : end].strip()) or (not binary and read.left):
                 raise InputError("more data than announced found", place=f"${name}", hint="a count is wrong")
         at = end + len(b"$End" + section[1])
     if data[at:].strip(b" \t\r\n\0"):
@@ -115,8 +117,9 @@ def _mesh_file(content: MshContent, options: ParserOptions) -> MeshFile:
 def _rows(tags: NDArray[np.int64], nodes: NDArray[np.int64]) -> NDArray[np.int64]:
     """The row of each node, given the tags of all rows; nodes without a row are beyond the last."""
     if len(tags) and (tags == np.arange(1, len(tags) + 1)).all():
-        wrong = (nodes < 1) | (nodes > len(tags))
-        rows = nodes - 1
+        if not len(nodes) or 1 <= int(nodes.min()) <= int(nodes.max()) <= len(tags):
+            return nodes - 1
+        wrong, rows = (nodes < 1) | (nodes > len(tags)), nodes
     else:
         order = np.argsort(tags, kind="stable")
         sorted_tags = tags[order]
@@ -135,6 +138,8 @@ def _rows(tags: NDArray[np.int64], nodes: NDArray[np.int64]) -> NDArray[np.int64
 
 def _groups(numbers: NDArray[np.int64], names: dict[tuple[int, int], str]) -> list[str | None]:
     """Names of the physical groups of the elements; None for none. Empty if no element has a group."""
+    if not numbers.any():
+        return []
     different, place = np.unique(numbers, return_inverse=True)
     words = [None if number == 0 else names.get((2, number), str(number)) for number in different.tolist()]
-    return [words[k] for k in place.tolist()] if any(words) else []
+    return [words[k] for k in place.tolist()]

@@ -48,7 +48,7 @@ class MshSection:
         """The next fractions."""
         if self.values is not None:
             return self._of_text(count)
-        return np.frombuffer(self._bytes(8 * count), f"{self.order}f8").astype(np.float64)
+        return np.frombuffer(self._bytes(8 * count), f"{self.order}f8").astype(np.float64, copy=False)
 
     def rows(self, count: int, reals: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """The next rows of a whole number and so many fractions."""
@@ -67,7 +67,7 @@ class MshSection:
     def _integers(self, count: int, width: int) -> NDArray[np.int64]:
         if self.values is not None:
             return self._whole(self._of_text(count))
-        return np.frombuffer(self._bytes(width * count), f"{self.order}i{width}").astype(np.int64)
+        return np.frombuffer(self._bytes(width * count), f"{self.order}i{width}").astype(np.int64, copy=False)
 
     def _of_text(self, count: int) -> NDArray[np.float64]:
         assert self.values is not None
@@ -75,10 +75,10 @@ class MshSection:
         self.at += count
         return self.values[self.at - count : self.at]
 
-    def _bytes(self, count: int) -> bytes:
+    def _bytes(self, count: int) -> memoryview:
         self._check(count, "byte")
         self.at += count
-        return self.data[self.at - count : self.at]
+        return memoryview(self.data)[self.at - count : self.at]
 
     def _check(self, count: int, what: str) -> None:
         if not 0 <= count <= self.left:
