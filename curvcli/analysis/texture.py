@@ -23,8 +23,8 @@ _PROPERTIES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s",
 class TextureMap(SurfaceMap):
     """Map f of a surface to its texture coordinates (u, v), linear on faces.
 
-    Where corners of faces at one vertex have different coordinates the surface is cut open: a seam. f is continuous on
-    the surface that is cut along its seams, and E(f), the sum over faces, is its energy there; no face is missing, and
+    The surface is cut open at a seam: corners of one vertex with different coordinates. f is continuous on the
+    surface that is cut along its seams, and E(f), the sum over faces, is its energy there; no face is missing, and
     nothing is added for a seam. The vertices along it are boundary vertices of the cut surface.
     surface: with a file that has texture coordinates at every corner (`load(..., texture=True)` for an OBJ file).
     vertex: (n,) vertex of the surface at each vertex of the cut surface, ascending. seams: edges that are cut.

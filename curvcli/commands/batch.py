@@ -88,7 +88,7 @@ def command(patterns: tuple[str, ...], **settings: Any) -> int:
     name of each: scans/a/b.ply by 'scans/**/*.ply' becomes DIR/a/b.ply.csv. DIR/summary.csv and .parquet have one row
     per mesh in the order of the inputs, DIR/manifest.jsonl one line per mesh as it ends. With --long,
     DIR/statistics.csv and .parquet have a row per number: mesh, region (empty for the whole), column or total,
-    statistic, value. With curvcli[remote], a PATTERN may be a URL that fsspec knows.
+    statistic, value. With curvcli[remote], a PATTERN may be any URL of fsspec.
 
     \b
       curvcli batch 'scans/**/*.ply' -o out --save csv,json -j 8

@@ -47,7 +47,7 @@ def ratio(numerator: Column, denominator: Column, usable: Flags) -> Column:
 def star_sums(surface: Surface) -> tuple[Column | Flags, ...]:
     """Σθ, ⅓Σ area, ⅓Σ area ν with the star oriented, −∇_p area, Σ extents; face areas; where undefined.
 
-    Where no face is, the scalar sums are 0 and the vectors null; −∇_p area is null at corners of degenerate faces too.
+    Without a face the scalar sums are 0 and the vectors null; −∇_p area is null at corners of degenerate faces too.
     """
     sums = sweep(surface)
     degenerate = np.zeros(surface.n_vertices, bool)

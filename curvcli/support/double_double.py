@@ -19,7 +19,7 @@ THIN_COTANGENT = 64.0
 class DoubleDouble:
     """Arrays high + low, |low| ≤ ½ ulp(high); sums and products are good to 2⁻¹⁰⁴ of their largest term.
 
-    Where a result is infinite or not a number, so is `high`, and `low` means nothing.
+    An infinite result, or one that is not a number, is in `high`, and `low` then has no meaning.
     """
 
     high: Floats

@@ -32,7 +32,7 @@ register(
         has_sign=has_sign,
         encodings="text, big-endian binary, versions 1 to 5.1",
         rows="points",
-        digits="as the type says; doubles in text",
+        digits="of the declared type; doubles in text",
         keeps="arrays of points and cells",
         labels="arrays of points and cells, numbers or words",
         polygons="triangulated; strips and pixels too",

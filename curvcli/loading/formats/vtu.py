@@ -31,7 +31,7 @@ register(
         has_sign=has_sign,
         encodings="XML with text, base64 or raw arrays, of either byte order, compressed or not",
         rows="points",
-        digits="as the type says; doubles in text",
+        digits="of the declared type; doubles in text",
         keeps="arrays of points and cells",
         labels="arrays of points and cells, numbers or words",
         polygons="triangulated; strips and pixels too",

@@ -77,8 +77,8 @@ def colorize(
 
     value_range: `LO:HI`, or `pNN` for the central NN % of the values (signed: symmetric about 0, the NN-th percentile
     of their size). Default: 2nd to 98th percentile; signed: symmetric about 0, the 98th percentile of their size.
-    Where that is a single value, but for rounding, though the values differ, as K of a finely divided cube, it is their
-    whole range; values that differ by rounding only are one value.
+    If only rounding lies between the percentiles, as of K of a finely divided cube, the range covers all values; values
+    that differ by rounding only are one value.
     ignore: (V,) values that are left out of the choice of the range, unless there are no others.
     floor: (V,) sizes up to which values are rounding, and are coloured as 0; 0 where a value is exact.
     Errors: UsageError for an unknown map, with the nearest names, and for an invalid range.

@@ -29,7 +29,7 @@ class PictureOptions:
 
     view: `iso`, `front`, `top`, `fit` (along the direction in which the surface is thinnest) or `AZ,EL` in degrees.
     up: the axis of the file that points up. size: pixels, None for a size by the number of panels.
-    background: a colour that matplotlib knows. edges: true to draw the edges of all faces. dpi: pixels per inch of the
+    background: a name of matplotlib or #rrggbb. edges: true to draw the edges of all faces. dpi: pixels per inch of the
     surface on a page (.pdf, .svg), where 100 pixels of the size are an inch.
     """
 

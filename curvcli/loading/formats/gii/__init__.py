@@ -33,7 +33,7 @@ register(
         has_sign=has_sign,
         encodings="ASCII, base64, base64 of zlib data, of either byte order",
         rows="positions (`NIFTI_INTENT_POINTSET`)",
-        digits="as the type says, mostly float32",
+        digits="of the declared type, mostly float32",
         keeps="arrays of vertices",
         labels="arrays of labels with their table",
         polygons="triangles only",

@@ -32,7 +32,7 @@ register(
         has_sign=has_sign,
         encodings="text, binary of either byte order",
         rows="`vertex` elements",
-        digits="as the type says",
+        digits="of the declared type",
         keeps="scalar properties of vertices and faces",
         labels="integer face properties",
         polygons="triangulated; `tristrips` too",
