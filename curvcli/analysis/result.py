@@ -102,7 +102,7 @@ class Result:
     def _closure(self) -> set[str]:
         """Every quantity that is computed for the chosen ones."""
         base_names = (name.partition(AT_SCALE)[0] for name in self.chosen)
-        order = schedule(passes, [*base_names, *_ALWAYS], self.request.area)
+        order = schedule(passes, [*base_names, *_ALWAYS, *columns_for(self._derived)], self.request.area)
         return {quantity.name for step in order for quantity in step.provides}
 
     @cached_property
@@ -110,7 +110,7 @@ class Result:
         """Quantities with totals; of several scales, those whose column is chosen."""
         scaled = [name for name in self.chosen if AT_SCALE in name]
         unscaled = [name for name in self._closure if not (scaled and passes.depends_on_scale(name))]
-        return [quantity.name for quantity in summed({*unscaled, *scaled, *columns_for(self._derived)})]
+        return [quantity.name for quantity in summed([*unscaled, *scaled])]
 
     @cached_property
     def _flags(self) -> list[str]:

@@ -17,6 +17,8 @@ UNITS = {
     "aj": "aJ",
     **dict.fromkeys(("pnnm", "pn·nm", "pn*nm"), "pN nm"),
 }
+# No rigidity is smaller in these units, and products with it stay within the range of doubles.
+_LEAST = 1e-60
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII | re.DOTALL)
 
 
@@ -40,7 +42,7 @@ def parse_rigidity(text: str) -> Rigidity:
     match = _NUMBER.fullmatch(text)
     unit = None if match is None else UNITS.get(re.sub(r"[\s_]", "", match[2]).lower())
     size = math.nan if match is None else float(match[1])
-    if unit is None or not (math.isfinite(size) and size > 0):
+    if unit is None or not _LEAST <= size <= 1 / _LEAST:
         known = ", ".join(dict.fromkeys(UNITS.values()))
         raise UsageError(f"bending rigidity {text!r}: expected a positive number with {known}, such as 20kBT or 8e-20J")
     return Rigidity(size, unit)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..errors import UsageError
 from ..mesh.surface import Surface
 from ..support.arrays import Column, Floats
 from .derived import derived_total
@@ -53,11 +54,13 @@ def helfrich(
     The energy ½κ(κ₁ + κ₂ − c₀)² per area. If c₀ differs from face to face, each face has its part of the star with its
     own c₀, so that the sum over vertices is the sum over faces.
     """
-    mean, spread = (c0, 0.0) if np.ndim(c0) == 0 else _over_stars(surface, star_area, face_area, np.asarray(c0))
     with np.errstate(over="ignore", invalid="ignore"):
+        mean, spread = (c0, 0.0) if np.ndim(c0) == 0 else _over_stars(surface, star_area, face_area, np.asarray(c0))
         bent = np.where((mean == 0) & (spread == 0), h, h_signed - mean)
         energy: Column = 0.5 * (bent * bent * star_area + spread)
-    return np.where(np.isinf(energy), np.nan, energy)
+    if np.isinf(energy).any():
+        raise UsageError("helfrich.c0: (h_signed − c0)² A is beyond the range of doubles on this mesh")
+    return energy
 
 
 def _over_stars(surface: Surface, star_area: Column, face_area: Column, values: Column) -> tuple[Column, Column]:

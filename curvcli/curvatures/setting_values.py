@@ -60,7 +60,7 @@ def with_spontaneous_curvature(given: GivenSettings, curvature: Any) -> GivenSet
 
 def _add(result: dict[str, SettingValue], key: str, setting: Setting, region: str, value: Any) -> None:
     """Add one value; a parameter without values by region keeps a plain one."""
-    if setting.by_region and isinstance(value, str) and "=" in value:
+    if setting.by_region and isinstance(value, str) and "=" in value[1:]:
         region, _, value = value.rpartition("=")
     place = f"{key} of region {region!r}" if region else key
     known = result.get(key, {})

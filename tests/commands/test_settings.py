@@ -142,6 +142,7 @@ def test_a_configuration_may_set_it_and_is_named(run: Run, tmp_path: Path) -> No
         (("--spontaneous-curvature", "pu=1", "--regions", "groups"), "which the mesh has not; known: up, down"),
         (("--bending-rigidity", "20"), "bending rigidity '20': expected a positive number with k_BT, J"),
         (("--bending-rigidity", "-1kBT"), "bending rigidity '-1kBT': expected a positive number"),
+        (("--bending-rigidity", "1e308kBT"), "bending rigidity '1e308kBT': expected a positive number"),
         (("--bending-rigidity", "infJ"), "bending rigidity 'infJ': expected a positive number"),
     ],
 )

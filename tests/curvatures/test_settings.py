@@ -78,6 +78,7 @@ def test_what_a_parameter_is_used_for_is_said_and_nothing_else() -> None:
         ("K.c0=1", r"the pass K has no parameters; those of others: helfrich\.c0"),
         ("helfrich.c0", r"expected PASS\.NAME=VALUE, such as helfrich\.c0=0\.5"),
         ("helfrich.c0=", r"helfrich\.c0 is '', expected a finite number"),
+        ("helfrich.c0==1", r"helfrich\.c0 is '=1', expected a finite number"),
         ("helfrich.c0=nan", r"helfrich\.c0 is 'nan', expected a finite number"),
         ("helfrich.c0=1e999", r"expected a finite number"),
         ("helfrich.c0=a=b", r"helfrich\.c0 of region 'a' is 'b', expected a finite number"),

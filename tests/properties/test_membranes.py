@@ -14,6 +14,7 @@ import curvcli
 from curvcli.curvatures.derived import derived
 from curvcli.curvatures.quantity import Quantity
 from curvcli.curvatures.registry import passes
+from curvcli.errors import UsageError
 from tests.helpers import meshes
 from tests.helpers.columns import agree, same
 from tests.helpers.meshes import Mesh
@@ -321,9 +322,12 @@ def test_derived_totals_change_as_declared() -> None:
 
 
 @pytest.mark.parametrize("c0", [1e200, -1e308])
-def test_an_energy_beyond_doubles_is_null(c0: float) -> None:
+def test_an_energy_beyond_doubles_is_refused(c0: float) -> None:
     surface = meshes.icosphere().surface()
-    assert np.isnan(curvcli.passes["helfrich"](surface, c0=c0)).all()
+    with pytest.raises(UsageError, match="beyond the range of doubles"):
+        curvcli.passes["helfrich"](surface, c0=c0)
+    with pytest.raises(UsageError, match="beyond the range of doubles"):
+        curvcli.analyze(surface, regions=np.arange(surface.n_faces) % 2, spontaneous_curvature={"1": c0})
 
 
 @pytest.mark.parametrize("kind", NAMES)
