@@ -16,7 +16,7 @@ from .groups import GROUP_OPTIONS, group_options, is_group
 from .limits import bounded
 from .meshes import input_of
 from .outputs import one_stdout, print_report, tables_and_reports
-from .settings import setting
+from .settings import merge_settings, setting
 
 if TYPE_CHECKING:
     from ..analysis.maps import SurfaceMap
@@ -81,6 +81,11 @@ _CONVENTIONS = (
     help="With --map: write a table, KIND faces (singular values, orientation) or vertices (harmonic residual); "
     "repeatable.",
 )
+@click.option(
+    "--vertexwise",
+    is_flag=True,
+    help="A and B are groups of meshes with the same faces: mean, difference, t, p and q at every vertex.",
+)
 @group_options
 @options.as_json
 @options.get("totals.nonconformality")
@@ -124,6 +129,10 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
     interval of B − A, Hedges' g, the number of missing values, and a correction for the number of tests. Numbers
     that differ by rounding only are not tested. The exit code is 0, with --strict 1 if a difference is significant.
 
+    With --vertexwise: A and B are folders or patterns of meshes that all have the same faces. -o writes a table or a
+    mesh with the mean shape of A: for each column of -p (K_density, h_signed) the mean of A and of B, the difference,
+    Welch's t, p, q over all vertices, and the numbers of values. One mesh at a time is in memory.
+
     \b
       curvcli compare bunny.obj bunny.json
       curvcli compare old.ply new.ply --rtol 1e-6 --ignore vertices
@@ -131,6 +140,7 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
       curvcli compare torus.ply exact.csv --rings 3
       curvcli compare controls/ patients/ -o differences.csv -o differences.pdf
       curvcli compare 'out/control*.json' 'out/patient*.json' --test permutation
+      curvcli compare 'control/*.ply' 'patient/*.ply' --vertexwise -p h_signed -o map.ply -o map.csv
       curvcli compare mesh.obj flattened.obj --map
       curvcli compare mesh.obj --map uv
       curvcli compare mesh.obj flattened.obj --map --get totals.nonconformality
@@ -141,6 +151,8 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
         if name in settings and context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             flag = next(p for p in context.command.params if p.name == name).opts[-1]
             raise click.UsageError(f"{flag} goes {'without' if as_map else 'with'} --map", context)
+    if settings.pop("vertexwise"):
+        return _compare_vertices(context, a, b, as_map, settings)
     if is_group(a) or is_group(b):
         return _compare_groups(context, a, b, as_map, settings)
     for name in GROUP_OPTIONS:
@@ -157,6 +169,17 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
         del settings["tables"]
         return compare(a, b, given=given, **settings)
     return compare_map(a, b, **{name: value for name, value in settings.items() if name not in _DIFFERENCES})
+
+
+def _compare_vertices(context: click.Context, a: str, b: str, as_map: bool, settings: dict[str, Any]) -> int:
+    from .vertexwise import REFUSED, compare_vertices
+
+    for name in REFUSED:
+        if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            flag = next(p for p in context.command.params if p.name == name).opts[-1]
+            raise click.UsageError(f"{flag} goes without --vertexwise", context)
+    merge_settings(settings)
+    return compare_vertices(a, b, **{name: value for name, value in settings.items() if name not in REFUSED})
 
 
 def _compare_groups(context: click.Context, a: str, b: str, as_map: bool, settings: dict[str, Any]) -> int:

@@ -22,6 +22,7 @@ from ..report.check.model import CheckReport
 from ..report.compare.model import Comparison
 from ..report.curves import CurveReport
 from ..report.groups.model import GroupComparison
+from ..report.groups.vertexwise import VertexwiseReport
 from ..report.maps import MapReport
 from ..report.model import Report, encode, require_all_keys
 from ..report.model import schema as report_schema
@@ -65,7 +66,7 @@ SCHEMAS: dict[str, Described] = {
     "check": Described("curvcli check --format json", (CheckReport,)),
     "compare": Described(
         "curvcli compare --json, also with --map, exact values or groups",
-        (Comparison, Accuracy, MapReport, GroupComparison),
+        (Comparison, Accuracy, MapReport, GroupComparison, VertexwiseReport),
     ),
     "curves": Described("curvcli curves --json", (CurveReport,)),
     "passes": Described("curvcli passes --json, a list; with NAME one of it", (list[Facts], Facts)),
