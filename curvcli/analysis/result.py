@@ -23,6 +23,7 @@ from ..curvatures.registry import passes
 from ..errors import Notice
 from ..loading.labels import Regions, cut_along_regions, find_regions, region_notices
 from ..loading.load import as_surface
+from ..mesh.borders import vertex_regions
 from ..mesh.groups import Groups
 from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Surface
@@ -86,7 +87,8 @@ class Result:
         self._shown: dict[str, Array] = {}
         self.cut: Result | None = None
         if regions is not None:
-            cut, self.cut_groups = cut_along_regions(surface, regions)
+            self._borders = vertex_regions(surface.faces, regions.face, surface.n_vertices)
+            cut, self.cut_groups = cut_along_regions(surface, regions, self._borders)
             alone = replace(
                 request,
                 unit=self.conventions.unit,
@@ -209,7 +211,8 @@ class Result:
         """Shares of every total by region, and of the faces without one; none without regions."""
         if self.regions is None:
             return []
-        parts = Partition(self.surface, self.regions.face, self.regions.count, self.columns["face_area"])
+        area, borders = self.columns["face_area"], self._borders
+        parts = Partition(self.surface, self.regions.face, self.regions.count, area, borders)
         split = {name: self._split(name) for name in self._totalled if splits_itself(name, self.settings)}
         return parts.shares({name: self.columns[name] for name in self._totalled}, split)
 
@@ -223,8 +226,12 @@ class Result:
         """Checks of every group; of very many groups, those that fail."""
         checks: list[Check] = []
         for rule in self._rules:
-            each = [] if rule.of_shares else rule.run(self.surface, groups, self.columns)
-            checks += each if groups.count <= LISTED_GROUPS else summarise_checks(each, f"{groups.kind}s")
+            if rule.of_shares:
+                continue
+            if groups.count <= LISTED_GROUPS:
+                checks += rule.run(self.surface, groups, self.columns)
+            else:
+                checks += summarise_checks(rule.evaluate(self.surface, groups, self.columns), f"{groups.kind}s")
         return checks
 
     def shares_of_regions(self) -> dict[str, Floats]:

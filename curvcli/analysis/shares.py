@@ -22,7 +22,7 @@ from ..mesh.borders import vertex_regions
 from ..mesh.groups import Segments
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
-from ..support.arrays import Floats, Index
+from ..support.arrays import Floats, Index, Mask
 from .totals import summed
 
 
@@ -50,11 +50,15 @@ class _Split:
 class Partition:
     """Partition of the faces of a surface into regions and the faces without one.
 
-    face: (F,) region of each face, −1 for none. count: of the regions. area: (F,) areas of the faces.
+    face: (F,) region of each face, −1 for none. count: of the regions. area: (F,) areas of the faces. borders: the
+    result of `vertex_regions`, where it is known.
     """
 
-    def __init__(self, surface: Surface, face: Index, count: int, area: Floats) -> None:
+    def __init__(
+        self, surface: Surface, face: Index, count: int, area: Floats, borders: tuple[Index, Mask] | None = None
+    ) -> None:
         self.surface, self.count, self._area = surface, count, area
+        self._borders = vertex_regions(surface.faces, face, surface.n_vertices) if borders is None else borders
         self._face = np.where(face < 0, np.int32(count), face).astype(np.int32)
 
     def shares(
@@ -107,8 +111,8 @@ class Partition:
     @cached_property
     def _vertices(self) -> _Split:
         faces, n = self.surface.faces, self.surface.n_vertices
-        label, mixed = vertex_regions(faces, self._face, n)
-        label[mixed] = -1
+        label, mixed = self._borders
+        label = np.where(mixed, np.int32(-1), np.where(label < 0, np.int32(self.count), label))
         at = np.flatnonzero(mixed[faces])
         vertex, area = faces.ravel()[at], self._area[at // 3]
         star = np.bincount(vertex, area, minlength=n)[vertex]

@@ -96,6 +96,11 @@ class CheckRule:
 
     def run(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> list[Check]:
         """Evaluate the check on every group."""
+        evaluated = self.evaluate(surface, groups, columns)
+        return [evaluated.check(group) for group in range(groups.count)]
+
+    def evaluate(self, surface: Surface, groups: Groups, columns: Mapping[str, Any]) -> EvaluatedCheck:
+        """Evaluate both sides on every group at once."""
         given = [columns[name] for name in ((SHARES,) if self.of_shares else self.needs)]
         outcome = self.function(surface, groups, *given)
         with np.errstate(invalid="ignore"):  # infinite sides
@@ -104,24 +109,51 @@ class CheckRule:
         if residual is None:
             residual = np.abs(gap) if gap.ndim == 1 else np.sqrt((gap * gap).sum(axis=1))
         passed = residual <= outcome.tolerance  # NaN fails
-        shown = [
-            surface.in_file_unit(side, outcome.length_exponent).tolist()
-            for side in (outcome.value, outcome.expected, residual, outcome.tolerance)
-        ]
-        return [
-            self._one(groups, outcome, bool(passed[g]), [side[g] for side in shown], g) for g in range(groups.count)
-        ]
+        sides = (outcome.value, outcome.expected, residual, outcome.tolerance)
+        shown = tuple(np.asarray(surface.in_file_unit(side, outcome.length_exponent)) for side in sides)
+        return EvaluatedCheck(self.name, groups, outcome, passed, shown)
 
-    def _one(self, groups: Groups, outcome: IdentityValues, passed: bool, shown: list[Any], group: int) -> Check:
-        scope = groups.scope(group)
-        for mask, reason in outcome.excluded:
+
+@dataclass(frozen=True)
+class EvaluatedCheck:
+    """One check on every group.
+
+    passed: (G,) mask of the groups on which both sides agree. shown: value, expected value, residual and tolerance,
+    (G,) or (G, 3), in the file's unit.
+    """
+
+    name: str
+    groups: Groups
+    outcome: IdentityValues
+    passed: Mask
+    shown: tuple[Floats, ...]
+
+    @property
+    def excluded(self) -> Mask:
+        """(G,) mask of the groups to which the check does not apply."""
+        mask = np.zeros(self.groups.count, bool)
+        for excluded, _ in self.outcome.excluded:
+            mask |= excluded
+        return mask
+
+    @property
+    def in_range(self) -> Mask:
+        """(G,) mask of the groups whose numbers a double holds in the file's unit."""
+        finite = [np.isfinite(side).reshape(self.groups.count, -1).all(axis=1) for side in self.shown]
+        return np.asarray(np.logical_and.reduce(finite))
+
+    def check(self, group: int) -> Check:
+        """The check on one group."""
+        scope = self.groups.scope(group)
+        for mask, reason in self.outcome.excluded:
             if mask[group]:
                 return Check(self.name, scope, "not_applicable", None, None, None, None, _said(reason, group))
-        detail = _said(outcome.detail, group)
-        value, expected, residual, tolerance = (_plain(side) for side in shown)
-        if not passed:
+        detail = _said(self.outcome.detail, group)
+        sides = [side[group].tolist() for side in self.shown]
+        value, expected, residual, tolerance = map(_plain, sides)
+        if not self.passed[group]:
             return Check(self.name, scope, "fail", value, expected, residual, tolerance, detail)
-        null = [part for part, side in zip(_PARTS, shown, strict=True) if not np.isfinite(side).all()]
+        null = [part for part, side in zip(_PARTS, sides, strict=True) if not np.isfinite(side).all()]
         if null:
             reason = f"no double holds its {', '.join(null)} in the file's unit"
             return Check(self.name, scope, "not_applicable", None, None, None, None, reason)

@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, LackingError, Notice
-from ..mesh.borders import split_vertices
+from ..mesh.borders import split_vertices, vertex_regions
 from ..mesh.counts import count_groups
 from ..mesh.groups import Groups, by_label
 from ..mesh.surface import CutFrom, Surface
-from ..support.arrays import Index
+from ..support.arrays import Index, Mask
 from ..support.words import suggestion
 from .face_labels import face_labels
 from .label_files.base import LabelFile
@@ -87,16 +87,26 @@ def _find(surface: Surface, chosen: str | NDArray[np.integer[Any]]) -> Regions:
     raise LackingError(f"--regions {chosen}: neither a label of this mesh nor a file of labels such as .csv{way_out}")
 
 
-def cut_along_regions(surface: Surface, regions: Regions) -> tuple[Surface, Groups]:
-    """Cut a surface so that every region has its own vertices, oriented as the whole; with the regions as groups."""
+def cut_along_regions(
+    surface: Surface, regions: Regions, borders: tuple[Index, Mask] | None = None
+) -> tuple[Surface, Groups]:
+    """Cut a surface so that every region has its own vertices, oriented as the whole; with the regions as groups.
+
+    borders: the result of `vertex_regions`, where it is known.
+    """
     inside = regions.face >= 0
-    faces, label = surface.faces[inside], regions.face[inside]
+    whole = bool(inside.all())
+    faces = surface.faces.copy() if whole else surface.faces.compress(inside, axis=0)
+    label = regions.face if whole else regions.face[inside]
     turned = None
     if surface.orientation.face_sign is not None:
         turned = surface.orientation.face_sign[inside] < 0
         faces[turned] = faces[turned][:, [0, 2, 1]]
-    vertex, region, corners = split_vertices(faces, label, surface.n_vertices, regions.count)
-    cut = Surface(surface.points[vertex], corners, cut_from=CutFrom(surface, vertex, turned))
+    known = vertex_regions(surface.faces, regions.face, surface.n_vertices) if borders is None else borders
+    vertex, region, corners = split_vertices(faces, label, *known, regions.count)
+    xyz = surface.xyz_given.take(vertex, axis=1)
+    xyz.setflags(write=False)
+    cut = Surface(xyz.T, corners, cut_from=CutFrom(surface, vertex, turned))
     return cut, by_label(cut, label, regions.count, "region", regions.names, region)
 
 

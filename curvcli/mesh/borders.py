@@ -12,7 +12,7 @@ from .groups import stable_order
 def vertex_regions(faces: Index, face: Index, n_vertices: int) -> tuple[Index, Mask]:
     """(V,) the region of a face at each vertex, -1 where no face is, and the mask of the vertices of several regions.
 
-    face: (F,) region of each face.
+    face: (F,) region of each face, -1 for none, which counts as a region.
     """
     label = np.full(n_vertices, -1, np.int32)
     corners = faces.T
@@ -24,12 +24,16 @@ def vertex_regions(faces: Index, face: Index, n_vertices: int) -> tuple[Index, M
     return label, mixed
 
 
-def split_vertices(faces: Index, face: Index, n_vertices: int, count: int) -> tuple[NDArray[np.int64], Index, Index]:
+def split_vertices(
+    faces: Index, face: Index, label: Index, mixed: Mask, count: int
+) -> tuple[NDArray[np.int64], Index, Index]:
     """A copy of each vertex for each region of its faces, region after region, each in ascending order.
 
+    faces: (F, 3) those with a region. face: (F,) their regions. label, mixed: of `vertex_regions`, where faces may have
+    the region -1. count: of the regions.
     Returns (n,) the vertex and (n,) the region of each copy, and (F, 3) the copy at each corner.
     """
-    label, mixed = vertex_regions(faces, face, n_vertices)
+    n_vertices = len(label)
     inner = np.flatnonzero((label >= 0) & ~mixed)
     inner = inner[stable_order(label[inner], count)]
     at = np.flatnonzero(mixed[faces])

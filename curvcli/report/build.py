@@ -17,7 +17,7 @@ from ..checks.special import competing_normals, constant_mean_curvature, steiner
 from ..mesh.counts import classify, count_groups, duplicate_faces, duplicate_vertices
 from ..mesh.groups import Groups
 from ..mesh.surface import Surface
-from ..support.arrays import or_none
+from ..support.arrays import numbers_or_none
 from ..support.cache import cached
 from .model import (
     CONVENTIONS,
@@ -223,4 +223,5 @@ def column_statistics(analysis: Result) -> dict[str, ColumnStatistics]:
 
 def _json_list(values: Any) -> list[Any]:
     """Lists for JSON, with None for an undefined number, or a vector with an undefined component."""
-    return [vector(map(or_none, row)) if isinstance(row, list) else or_none(row) for row in values.tolist()]
+    listed = numbers_or_none(np.asarray(values))
+    return [vector(row) for row in listed] if np.ndim(values) > 1 else listed

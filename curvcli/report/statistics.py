@@ -14,7 +14,7 @@ from ..curvatures.quantity import Quantity
 from ..curvatures.registry import passes
 from ..mesh.groups import Groups, Segments
 from ..mesh.surface import Surface
-from ..support.arrays import Floats, Ints, Mask, or_none
+from ..support.arrays import Floats, Ints, Mask, numbers_or_none
 
 if TYPE_CHECKING:
     from ..analysis.result import Result
@@ -104,4 +104,4 @@ def listed_statistics(analysis: Result, groups: Groups, names: Sequence[str] = (
 
 def _plain(values: Floats | Ints) -> list[Any]:
     """Numbers of Python, None for NaN and infinity."""
-    return values.tolist() if values.dtype.kind == "i" else [or_none(value) for value in values.tolist()]
+    return numbers_or_none(values)

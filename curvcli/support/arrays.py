@@ -27,6 +27,16 @@ Counts = NDArray[np.int32]
 Value = float | list[float | None] | None
 
 
+def numbers_or_none(values: Array) -> list[Any]:
+    """An array as nested lists of Python's numbers, with None for NaN and infinity."""
+    numbers: list[Any] = values.tolist()
+    if values.dtype.kind == "f" and not np.isfinite(values).all():
+        objects = values.astype(object)
+        objects[~np.isfinite(values)] = None
+        numbers = objects.tolist()
+    return numbers
+
+
 def or_none(value: float) -> float | None:
     """Replace NaN and infinity by None for reports."""
     return value if math.isfinite(value) else None
