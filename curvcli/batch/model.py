@@ -37,25 +37,14 @@ class BatchItem(msgspec.Struct, frozen=True):
 class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     """Settings that determine the results and outputs of each mesh.
 
-    long: whether rows have statistics. command: as typed; pages show it, and nothing else depends on it.
+    options: fields of the `Request` by name; those that are not there have their defaults. long: whether rows have
+    statistics. command: as typed; pages show it, and nothing else depends on it.
     configuration: the file that set some of this, as named in reports.
     """
 
     passes: tuple[str, ...]
     save: tuple[str, ...] = ()
-    area: str = "barycentric"
-    mean: str = "sum"
-    orient: str = "file"
-    weld: str | float = "auto"
-    unit: str | None = None
-    regions: str | None = None
-    rings: str | None = None
-    radius: str | None = None
-    normals: str = "mesh"
-    noise: float | None = None
-    stat: tuple[str, ...] = ()
-    parameters: dict[str, bool | int | float | str | dict[str, bool | int | float | str]] = {}
-    bending_rigidity: str | None = None
+    options: dict[str, Any] = {}
     input_format: str | None = None
     max_faces: int | None = None
     max_bytes: int | None = None

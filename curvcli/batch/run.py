@@ -33,11 +33,6 @@ from .outcome import explained
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
 
-_CONVENTIONS = (
-    *("area", "mean", "orient", "weld", "unit", "regions", "rings", "radius", "normals", "noise", "stat"),
-    "parameters",
-    "bending_rigidity",
-)
 _WORST = ("fail", "pass", "not_applicable")
 
 
@@ -63,11 +58,10 @@ def run(item: BatchItem, settings: BatchSettings, limits: Limits) -> tuple[Row, 
 
 def _analysed(item: BatchItem, settings: BatchSettings) -> Result:
     timings: dict[str, float] = {}
+    request = Request(passes=settings.passes, **settings.options)
     with _timed(timings, "read"):
-        surface = _surface(item, settings)
+        surface = _surface(item, settings, request)
     with _timed(timings, "compute"):
-        conventions: dict[str, Any] = {key: getattr(settings, key) for key in _CONVENTIONS}
-        request = Request(passes=settings.passes, **conventions)
         formats = [format_of(path) for kind, path in item.outputs if not kind]
         tables = [kind for kind, _ in item.outputs if kind]
         besides = needs(formats, tables, settings.appearance, request.chosen)
@@ -79,9 +73,10 @@ def _analysed(item: BatchItem, settings: BatchSettings) -> Result:
     return analysis
 
 
-def _surface(item: BatchItem, settings: BatchSettings) -> Surface:
+def _surface(item: BatchItem, settings: BatchSettings, request: Request) -> Surface:
     """Surface of a file or a URL; messages use the name given."""
-    asked: dict[str, Any] = {key: getattr(settings, key) for key in ("weld", "normals", "max_faces", "max_bytes")}
+    asked: dict[str, Any] = {key: getattr(request, key) for key in ("weld", "normals")}
+    asked |= {key: getattr(settings, key) for key in ("max_faces", "max_bytes")}
     wanted = settings.input_format
     try:
         if item.content is None and not is_url(item.place):
@@ -89,7 +84,7 @@ def _surface(item: BatchItem, settings: BatchSettings) -> Surface:
         else:
             content = item.content if item.content is not None else read_url(item.place, settings.max_bytes)
             file = read_mesh_file(io.BytesIO(content), input_format=wanted or format_of_name(item.place), **asked)
-        return from_file(replace(file, path=item.path), settings.orient)  # type: ignore[arg-type]
+        return from_file(replace(file, path=item.path), request.orient or "file")
     except InputError as error:
         error.path = item.path
         raise

@@ -7,6 +7,7 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, ExitStack
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -187,6 +188,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
 
     Errors: UsageError for options that do not fit.
     """
+    from ..analysis.request import Request
     from ..analysis.statistics import parse_statistics
     from ..batch.model import BatchSettings
     from ..output.write import check_appearance
@@ -199,10 +201,12 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
         raise UsageError("--save regions: there are none without --regions")
     appearance = options.appearance(conventions)
     check_appearance(appearance, at_scale, [f".{suffix}" for suffix in save])
+    requested = {field.name for field in fields(Request)}
+    asked = {name: conventions.pop(name) for name in list(conventions) if name in requested}
     return BatchSettings(
         passes=tuple(names),
         save=save,
-        weld=parse_weld(weld),
+        options={"weld": parse_weld(weld), **asked},
         appearance=appearance,
         command=shell_quoted(["curvcli", *sys.argv[1:]]),
         configuration=configuration(),

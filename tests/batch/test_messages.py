@@ -19,9 +19,11 @@ MESSAGES = [
     Ready("1.2.3"),
     Task(
         BatchItem("a", "/a\udcff\nb.obj", (("", "/out/\udcfe.csv"), ("edges", "/e.csv")), bytes(range(256))),
-        BatchSettings(passes=("K", "h"), save=("csv",), weld=1e-3, unit="µm", regions="groups", max_faces=7),
+        BatchSettings(
+            passes=("K", "h"), save=("csv",), options={"weld": 1e-3, "unit": "µm", "regions": "groups"}, max_faces=7
+        ),
     ),
-    Task(BatchItem("memory://x", "memory://x"), BatchSettings(passes=(), weld="exact")),
+    Task(BatchItem("memory://x", "memory://x"), BatchSettings(passes=(), options={"weld": "exact"})),
     Done(Row(path="x", status="timeout", exit_code=3, error="late", seconds=0.1), True),
     Done(Row(path="x", totals={"K": 4 * math.pi, "H_vec": [5e-324, -0.0, None], "big": 1.7976931348623157e308},
              topology={"genus": None, "closed": True}, checks={"c": {"status": "pass", "residual": 0.1}}), False),
