@@ -64,12 +64,14 @@ class MeshFormat(Format):
 
     write: takes a stream, points, faces and the keywords of `MeshAttributes`; returns notices of
     what the format cannot hold.
-    properties: whether it holds columns. quality: whether the column of the colours may stand there as `quality` too.
+    properties: whether it holds columns. labels: whether it holds the labels of the input with their words. quality:
+    whether the column of the colours may stand there as `quality` too.
     """
 
     kind: OutputKind = "mesh"
     write: Callable[..., tuple[Notice, ...]]
     properties: bool = False
+    labels: bool = False
     quality: bool = False
 
 

@@ -240,7 +240,10 @@ def _write_mesh(stream: BinaryIO, analysis: Result, format: MeshFormat, appearan
     ours: dict[str, Any] = vertex_properties(analysis) if full else {}
     if format.quality and appearance.quality and painted is not None:
         ours["quality"] = ours[painted[0]]
-    inputs = file.vertex_properties if file is not None and full else {}
+    inputs: dict[str, Any] = dict(file.vertex_properties) if file is not None and full else {}
+    per_face: dict[str, Any] = dict(file.polygon_properties) if file is not None else {}
+    if file is not None and format.labels:
+        inputs, per_face = file.vertex_labels | inputs, file.polygon_labels | per_face
     properties, notices = beside_input(ours, inputs, colored=painted is not None)
     polygons = None
     if file is not None and file.sizes is not None:
@@ -253,7 +256,7 @@ def _write_mesh(stream: BinaryIO, analysis: Result, format: MeshFormat, appearan
         polygons=polygons,
         vertex_colors=None if painted is None else painted[1].rgb,
         vertex_properties=properties,
-        face_properties=file.polygon_properties if file is not None else {},
+        face_properties=per_face,
         comments=_comments(analysis, painted),
         triangles=surface.faces,
         active=None if painted is None else painted[0],
@@ -267,4 +270,6 @@ def _comments(analysis: Result, painted: tuple[str, ColorScale] | None) -> list[
     if painted is not None and painted[1].low is not None:
         name, scale = painted
         comments.append(f"colour: {name} from {scale.low!r} to {scale.high!r}, {scale.cmap}")
+    if analysis.conventions.unit:
+        comments.append(f"unit of length: {analysis.conventions.unit}")
     return comments

@@ -58,7 +58,7 @@ def test_what_cannot_be_drawn_is_refused_before_any_work(within: Run, options: l
 
 @pytest.mark.parametrize(
     ("name", "needs"),
-    [("x.png", "pictures need"), ("x.hist.png", "histograms need matplotlib"), ("x.vtp", ".vtp and .vtu need")],
+    [("x.png", "pictures need"), ("x.hist.png", "histograms need matplotlib")],
 )
 def test_without_the_extra_the_way_to_install_it_is_told(
     within: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str, needs: str

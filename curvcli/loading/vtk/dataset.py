@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,6 +16,7 @@ from ..limits import check_faces
 from .attributes import Attribute, joined_attributes, labels, properties
 from .cells import STRAIGHT, CellFaces, joined
 from .kinds import count_of
+from .meanings import Meanings
 
 
 @dataclass(frozen=True)
@@ -30,10 +31,10 @@ class VtkPiece:
 
 @dataclass
 class DataSet:
-    """Consecutive pieces. meanings: names of the codes of an array of integers."""
+    """Consecutive pieces. meanings: words of the codes of arrays of integers, and the unit of length."""
 
     pieces: list[VtkPiece]
-    meanings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    meanings: Meanings = field(default_factory=Meanings)
     notices: list[Notice] = field(default_factory=list)
 
 
@@ -57,9 +58,9 @@ def mesh_file(data: DataSet, format: str, max_faces: int | None = None, normals:
         notices.append(Notice("other_cells", total, message, "a surface has triangles and polygons only"))
     of_points = joined_attributes([piece.of_points for piece in data.pieces], notices)
     of_cells = joined_attributes([piece.of_cells for piece in data.pieces], notices)
-    at_points = labels(of_points, data.meanings)
+    at_points = labels(of_points, data.meanings.points)
     corners, sizes, cell = _without_short(faces, notices)
-    named = labels(of_cells, data.meanings)
+    named = labels(of_cells, data.meanings.cells)
     columns = properties([attribute for attribute in of_cells if attribute.name not in named])
     xyz = np.empty((3, sum(len(piece) for piece in points)))
     for axis in range(3):
@@ -77,6 +78,7 @@ def mesh_file(data: DataSet, format: str, max_faces: int | None = None, normals:
         vertex_labels=at_points,
         polylines=_polylines(faces),
         corner_normals=_normals(of_points) if normals else None,
+        unit=data.meanings.unit,
         notices=tuple(notices),
     )
 

@@ -1,34 +1,41 @@
-"""Meanings of codes in the comments that curvcli writes into VTK files."""
+"""Words of labels and the unit of length in the comments that curvcli writes into VTK files."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 
-_SIGN = "curvcli:"
-
-
-def of_comments(comments: Iterable[str]) -> dict[str, tuple[str, ...]]:
-    """Names of the codes of arrays, from lines `array: 0 name, 1 name` of a comment of curvcli."""
-    meanings: dict[str, tuple[str, ...]] = {}
-    for comment in comments:
-        lines = comment.strip().split("\n")
-        if not lines[0].startswith(_SIGN):
-            continue
-        for line in lines[1:]:
-            name, _, codes = line.partition(": 0 ")
-            if names := _names(codes):
-                meanings[name] = names
-    return meanings
+_LABELS, _UNIT = "labels: {", "unit of length: "
 
 
-def _names(codes: str) -> tuple[str, ...]:
-    """Names behind the codes 0, 1, 2, …; none for a text that is cut short."""
-    names: list[str] = []
-    while codes:
-        end = re.search(f", (?:{len(names) + 1}|-1) ", codes)
-        names.append(codes[: end.start()] if end else codes)
-        codes = codes[end.end() :] if end else ""
-        if end and end[0] == ", -1 ":
-            break
-    return () if names and re.fullmatch(r"and \d+ more", names[-1].rpartition(", ")[2]) else tuple(names)
+@dataclass
+class Meanings:
+    """Words of the codes 0, 1, 2, … of arrays of points and of cells, and the unit."""
+
+    points: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    cells: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    unit: str | None = None
+
+    @classmethod
+    def of_comments(cls, comments: Iterable[str]) -> Meanings:
+        """Those of all comments; lines of another form are ignored."""
+        meanings = cls()
+        for comment in comments:
+            for line in comment.split("\n"):
+                if line.startswith(_UNIT):
+                    meanings.unit = line.removeprefix(_UNIT).strip() or None
+                elif line.startswith(_LABELS):
+                    meanings._read(line.removeprefix(_LABELS[:-1]))
+        return meanings
+
+    def _read(self, text: str) -> None:
+        try:
+            given = json.loads(text)
+        except (ValueError, RecursionError):
+            return
+        for element, target in (("points", self.points), ("cells", self.cells)):
+            arrays = given.get(element)
+            for name, words in arrays.items() if isinstance(arrays, Mapping) else ():
+                if isinstance(words, list) and all(isinstance(word, str) for word in words):
+                    target[name] = tuple(words)

@@ -19,7 +19,7 @@ from .cells import NONE, CellLists, of_lists, of_types
 from .dataset import DataSet, VtkPiece, mesh_file
 from .decode import Decoder, inflater
 from .document import Document, XmlElement, parse_document
-from .meanings import of_comments
+from .meanings import Meanings
 
 _KINDS = {"vtp": "PolyData", "vtu": "UnstructuredGrid"}
 _LISTS = ("Verts", "Lines", "Polys", "Strips")
@@ -49,13 +49,24 @@ def parse_xml(pieces: Pieces, options: ParserOptions, format: str) -> MeshFile:
     read = [_piece(piece, k if len(given) > 1 else None, decoder, format) for k, piece in enumerate(given)]
     if not read:
         raise InputError("no faces: no element Piece found")
-    return mesh_file(DataSet(read, of_comments(document.comments)), format, options.max_faces, options.normals)
+    meanings = Meanings.of_comments(document.comments)
+    meanings.unit = _unit([*root.all("FieldData"), *body.all("FieldData")], decoder) or meanings.unit
+    return mesh_file(DataSet(read, meanings), format, options.max_faces, options.normals)
 
 
 def _way_out(kind: str) -> str:
     if kind.startswith("P") and kind != "PolyData":
         return "it names other files, which are never opened: give those files"
     return """`python -c "import pyvista; pyvista.read('IN').extract_surface().save('OUT.vtp')"` extracts a surface"""
+
+
+def _unit(fields: list[XmlElement], decoder: Decoder) -> str | None:
+    """The only text of a field `unit` or `units`."""
+    for array in (array for element in fields for array in element.arrays()):
+        kind, name, count = (array.attributes.get(key, "") for key in ("type", "Name", "NumberOfTuples"))
+        if kind == "String" and name.lower() in ("unit", "units") and count in ("", "1"):
+            return decoder.words(array, 1)[0].strip() or None
+    return None
 
 
 def _decoder(data: bytes, document: Document, options: ParserOptions) -> Decoder:

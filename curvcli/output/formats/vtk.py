@@ -11,13 +11,6 @@ if TYPE_CHECKING:
     from ...errors import Notice
 
 
-def require() -> None:
-    """Errors: MissingExtraError without VTK."""
-    from ..pictures.options import require_vtk
-
-    require_vtk()
-
-
 def write_to(suffix: str, stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write everything."""
     from ..meshes.vtk import write_vtk
@@ -33,7 +26,7 @@ for place, (suffix, kind) in enumerate(((".vtp", "polygons"), (".vtu", "unstruct
             place=place,
             write=partial(write_to, suffix),
             shows=mesh_color,
-            require=require,
             properties=True,
+            labels=True,
         )
     )

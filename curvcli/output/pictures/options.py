@@ -144,11 +144,6 @@ def require_pictures(surface: bool = True) -> None:
         _require("histograms need", "matplotlib")
 
 
-def require_vtk() -> None:
-    """Raise MissingExtraError if the library that writes VTK files is not installed."""
-    _require(".vtp and .vtu need", "vtkmodules")
-
-
 def import_apart(*libraries: str) -> None:
     """Import libraries on a separate stack.
 
