@@ -56,7 +56,8 @@ def _tables() -> Iterable[str]:
     metavar="KIND=PATH",
     shell_complete=candidates.tables(_tables),
     multiple=True,
-    help="Write another table: edges, faces, loops, regions, components, intersections or histogram; repeatable.",
+    help="Write another table: edges, faces, loops, regions, components, statistics, intersections or "
+    "histogram; repeatable.",
 )
 @options.passes
 @options.regions

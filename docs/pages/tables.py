@@ -33,6 +33,10 @@ _INTERSECTIONS = (
     ("component_a`, `component_b", "their components"),
     ("x`, `y`, `z", "a point of contact"),
 )
+_STATISTICS = """\
+A row for each number, of the whole surface and then of each region: `region` is empty for the whole, `column` is also
+the key of a total, `statistic` is `total`, `share` or one of `--stat`. `curvcli batch --long` writes the same for all
+meshes."""
 _ELEMENTS: dict[str, Element] = {"edges": "edge", "faces": "face"}
 _REGION = ("region", "the label of the face's region, with `--regions` only")
 
@@ -51,6 +55,9 @@ def page_part() -> str:
         names = ", ".join(f"`{name}`" for name in TABLES[kind](example))
         parts += [f"### {kind}\n", f"{names}\n"]
     parts += ["`region` is the label, as in the table of faces. `name` is its key in the report.\n"]
+    parts += [
+        f"### statistics\n\n{', '.join(f'`{name}`' for name in TABLES['statistics'](example))}\n\n{_STATISTICS}\n"
+    ]
     parts += ["### intersections\n", "| column | definition |", "|---|---|"]
     parts += [f"| `{name}` | {text} |" for name, text in _INTERSECTIONS]
     return "\n".join([*parts, ""])

@@ -12,6 +12,7 @@ from ...curvatures.registry import passes
 from ...errors import UsageError
 from ...mesh.file import Labels
 from ...support.words import suggestion
+from .statistics import statistics_table
 
 if TYPE_CHECKING:
     from ...analysis.result import Result
@@ -233,6 +234,7 @@ TABLES: dict[str, Callable[[Result], Table]] = {
     "loops": loop_table,
     "regions": region_table,
     "components": component_table,
+    "statistics": statistics_table,
     "intersections": intersection_table,
     HISTOGRAM: histograms,
 }

@@ -189,6 +189,21 @@ def test_names_from_the_file_are_text(tmp_path: Path) -> None:
     assert b"<script>alert" not in content
 
 
+def test_regions_have_their_statistics_and_shares() -> None:
+    given = of_sample("icosphere", size=162)
+    labels = (given.points[given.faces].mean(axis=1)[:, 2] > 0).astype(np.int64)
+    analysis = curvcli.analyze((given.points, given.faces), ["K", "h_signed"], regions=labels, stat="mean,area_p10")
+    section = Page(page_of(analysis)).root.one("section", id="regions")
+    rows = section.one("table", id="region-statistics").one("tbody").all("tr")
+    names = [(row.one("th").text, row.all("td")[0].text) for row in rows]
+    assert names == [(region, column) for region in "01" for column in ("K", "h_signed")]
+    regions = analysis.report()["regions"]
+    shown = [float(data.attributes["value"]) for data in rows[1].all("data")]
+    assert shown == list(regions[0]["columns"]["h_signed"].values())
+    heads = [head.text for head in section.all("th")]
+    assert "share area" in heads
+
+
 def test_a_large_mesh_is_simplified_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pages, "SURFACE_BYTES", 40_000)
     analysis, page = parsed(tuple(of_sample("icosphere", size=8000)))
