@@ -17,8 +17,8 @@ pytestmark = needs_shared
     ("name", "as_wound", "outward", "message"),
     [
         ("hollow_right.stl", 936, 936, ""),
-        ("hollow_wrong.stl", 1064, 936, "1 closed patch is inside out (face 12): a cavity of positive volume"),
-        ("two_second_inverted.stl", 936, 1064, "1 closed patch is inside out (face 12): a body of negative volume"),
+        ("hollow_wrong.stl", 1064, 936, "1 closed patch is inside out (face 12 at "),
+        ("two_second_inverted.stl", 936, 1064, "1 closed patch is inside out (face 12 at "),
         ("overlapping_cubes.stl", 2, 2, "2 closed patches cross or coincide (face 0 and face 12)"),
         ("bed_100_cubes.stl", 51200, 51200, ""),
     ],

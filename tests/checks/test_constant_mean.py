@@ -128,8 +128,8 @@ def test_other_stars_than_fans_are_covered_by_minimal_and_leave_cmc_untested() -
     found = of(touching)
     assert found.report()["minimal"]["H_vec_max"] > 0
     assert not problem(of(ball), "cmc=0.3")
-    untested = "max |H_p + H A_p|/A_p ÷ |H| is untested at 1 vertex whose star is not one fan (vertex 0)"
-    assert problem(found, "cmc=0.3") == untested
+    untested = "max |H_p + H A_p|/A_p ÷ |H| is untested at 1 vertex whose star is not one fan (vertex 0 at "
+    assert problem(found, "cmc=0.3").startswith(untested)
 
 
 def test_what_has_no_value_does_not_pass() -> None:
@@ -145,10 +145,8 @@ def test_what_has_no_value_does_not_pass() -> None:
             np.vstack([kept, [[p, middle, r], [middle, q, r], [p, q, middle]]]),
         )
     )
-    assert (
-        problem(sliver, "minimal=1e9")
-        == f"H_vec is undefined at 3 vertices of degenerate stars (first: vertex {min(p, q)})"
-    )
+    undefined = f"H_vec is undefined at 3 vertices of degenerate stars (first: vertex {min(p, q)} at "
+    assert problem(sliver, "minimal=1e9").startswith(undefined)
     assert problem(sliver, "cmc=1e9").startswith("H_vec or A_vec is undefined at 3 vertices of degenerate stars")
     assert problem(of(meshes.soup()), "minimal=1e9").endswith("is undefined: no vertex inside has a value")
     for name in ONE_SIDED:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 from curvcli.api import analyze
 from curvcli.checks.requirements.catalogue import defaults, requirements
+from curvcli.checks.requirements.faults import Elements, Fault, elements_of
 from curvcli.errors import UsageError
 from curvcli.report.check.judge import plan
 from tests.helpers import meshes
@@ -81,6 +83,11 @@ CASES: list[tuple[str, Make, Make, str]] = [
 ]
 
 
+def without_positions(message: str) -> str:
+    """A message without the coordinates of its places."""
+    return re.sub(r" at \([^()]*\)", "", message)
+
+
 @pytest.mark.parametrize(("name", "good", "bad", "message"), CASES, ids=[f"{c[0]}-{i}" for i, c in enumerate(CASES)])
 def test_met_and_unmet(name: str, good: Make, bad: Make, message: str) -> None:
     met = outcome(judged(good(), name), name)
@@ -88,7 +95,7 @@ def test_met_and_unmet(name: str, good: Make, bad: Make, message: str) -> None:
     assert met.message == requirements()[name.partition("=")[0]].statement
     unmet = judged(bad(), name)
     assert outcome(unmet, name).status == "fail"
-    assert outcome(unmet, name).message.startswith(message)
+    assert without_positions(outcome(unmet, name).message).startswith(message)
     assert (unmet.status, unmet.exit_code) == ("fail", 1)
 
 
@@ -145,7 +152,7 @@ def test_polygons_are_named_as_the_file_counts_them(tmp_path: Path) -> None:
     path = tmp_path / "square.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\n")
     found = outcome(judged(str(path), allow="manifold,consistent-winding"), "no-duplicate-faces")
-    assert found.message == "1 face with the corners of an earlier one (polygon 1)"
+    assert found.message == "1 face with the corners of an earlier one (polygon 1 at (0.666667, 0.333333, 0))"
 
 
 def test_defaults_and_allow() -> None:
@@ -190,3 +197,25 @@ def test_allowing_what_does_not_exist() -> None:
         plan(allow=["gaus_bonet"])
     with pytest.raises(UsageError, match="nearest: manifold"):
         plan(allow=["closed,manifolt"])
+
+
+def test_places_are_elements_with_positions() -> None:
+    """The rim of an open cube: four edges of its missing square, each at the middle of its ends."""
+    cube = of_sample("cube")
+    centre, half = cube.points.mean(axis=0), np.ptp(cube.points[:, 2]) / 2
+    top = np.isclose(cube.points[cube.faces][..., 2], centre[2] + half).all(axis=1)
+    found = outcome(judged(cube.with_faces(cube.faces[~top]), "closed"), "closed")
+    assert found.elements == len(found.places) == 4
+    for place in found.places:
+        kind, _, ends = place.element.partition(" ")
+        assert kind == "edge"
+        a, b = (cube.points[int(end)] for end in ends.split("-"))
+        assert place.position == pytest.approx((a + b) / 2)
+    first = ", ".join(f"{x + 0.0:.6g}" for x in found.places[0].position if x is not None)
+    assert f"(first: {found.places[0].element} at ({first}))" in found.message
+
+
+def test_a_plain_text_is_a_fault_without_elements() -> None:
+    assert elements_of("no patch is closed") == ()
+    joined_faults = "lost: " + Fault("1 face", Elements("face", np.array([3]))) + "; remesh"
+    assert (joined_faults, elements_of(joined_faults)[0].numbers.tolist()) == ("lost: 1 face; remesh", [3])

@@ -9,7 +9,8 @@ from ...mesh.intersections.search import FaceContacts, face_contacts
 from ...mesh.surface import Surface
 from ...support.words import counted, format_point
 from .base import requirement
-from .wording import face_name, join_problems
+from .faults import Elements, Fault
+from .wording import join_problems
 
 # Pairs named with their place.
 _FIRST = 3
@@ -49,13 +50,16 @@ def no_self_contacts(surface: Surface) -> str:
 
 def _listed(surface: Surface, contacts: FaceContacts, kind: int, one: str, many: str) -> str:
     """Number of pairs of a kind of contact, and the first ones with a point of contact; empty for none."""
-    count = int(np.count_nonzero(contacts.kind == kind))
+    rows = contacts.kind == kind
+    count = int(np.count_nonzero(rows))
     if not count:
         return ""
     first = contacts.first_of(kind, _FIRST)
+    names = (Elements("face", faces).names(surface) for faces in (first.one, first.other))
     pairs = [
-        f"{face_name(surface, face)} and {face_name(surface, other)} at {format_point(point)}"
-        for face, other, point in zip(first.one, first.other, first.points(surface), strict=True)
+        f"{face} and {other} at {format_point(point)}"
+        for face, other, point in zip(*names, first.points(surface), strict=True)
     ]
     more = [] if count == len(pairs) else ["…"]
-    return f"{counted(count, one, many)} ({'; '.join([*pairs, *more])})"
+    faces = np.unique(np.concatenate([contacts.one[rows], contacts.other[rows]]))
+    return Fault(f"{counted(count, one, many)} ({'; '.join([*pairs, *more])})", Elements("face", faces))

@@ -25,7 +25,7 @@ def convex(surface: Surface, face_area: Column, H_theta: Column, K: Column, K_mi
     columns = {"face_area": face_area, "H_theta": H_theta, "K": K, "K_minus": K_minus}
     lost = np.flatnonzero(np.isnan(K_minus) & surface.referenced)
     if len(lost):
-        return "K⁻ is undefined at " + vertices(lost, "of a degenerate star", "of degenerate stars")
+        return "K⁻ is undefined at " + vertices(surface, lost, "of a degenerate star", "of degenerate stars")
     if bool(steiner(surface, surface.whole, columns)["convex"][0]):
         return ""
     bound = 16 * EPSILON * (surface.n_faces + int(np.count_nonzero(surface.referenced)))
@@ -54,7 +54,7 @@ def minimal(
     scale = math.sqrt(surface.whole.faces.sum(face_area)[0])
     largest, vertex = _largest_density(H_vec, star_area, star_extent, covered)
     value = largest * scale * (0.5 if mean == "average" else 1.0)
-    return _judged("max |H_p|/A_p · √area", value, vertex, tolerance) or _untested(H_vec, covered, "H_vec")
+    return _judged("max |H_p|/A_p · √area", value, vertex, tolerance) or _untested(surface, H_vec, covered, "H_vec")
 
 
 @requirement(
@@ -83,8 +83,8 @@ def cmc(
     others = np.flatnonzero(surface.nonmanifold & ~surface.boundary)
     return (
         _judged(name, value, vertex, tolerance)
-        or _untested(residual, surface.interior, "H_vec or A_vec")
-        or (f"{name} is untested at {vertices(others, _NOT_A_FAN, _NOT_FANS)}" if len(others) else "")
+        or _untested(surface, residual, surface.interior, "H_vec or A_vec")
+        or (f"{name} is untested at " + vertices(surface, others, _NOT_A_FAN, _NOT_FANS) if len(others) else "")
     )
 
 
@@ -112,8 +112,8 @@ def _judged(name: str, value: float, vertex: int, tolerance: float) -> str:
     )
 
 
-def _untested(vectors: VectorColumn, where: Flags, what: str) -> str:
+def _untested(surface: Surface, vectors: VectorColumn, where: Flags, what: str) -> str:
     lost = np.flatnonzero(where & np.isnan(vectors).any(axis=0))
-    return (
-        f"{what} is undefined at " + vertices(lost, "of a degenerate star", "of degenerate stars") if len(lost) else ""
-    )
+    if not len(lost):
+        return ""
+    return f"{what} is undefined at " + vertices(surface, lost, "of a degenerate star", "of degenerate stars")

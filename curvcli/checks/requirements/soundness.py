@@ -52,11 +52,11 @@ def no_unreferenced(surface: Surface) -> str:
     loose = ~surface.referenced
     if surface.file is not None and surface.file.welded_to is not None:
         loose &= surface.file.welded_to < 0
-    return vertices(np.flatnonzero(loose), "that no face uses", "that no face uses")
+    return vertices(surface, np.flatnonzero(loose), "that no face uses", "that no face uses")
 
 
 @requirement("no-duplicate-vertices", remedy="`--weld exact` merges them", after="no-unreferenced")
 def no_duplicate_vertices(surface: Surface) -> str:
     """No two vertices of faces are at the same position."""
     twice = duplicate_vertices(surface)
-    return vertices(twice, "at the position of an earlier one", "at the position of an earlier one")
+    return vertices(surface, twice, "at the position of an earlier one", "at the position of an earlier one")

@@ -13,7 +13,8 @@ from ...mesh.solids.notices import list_kinds
 from ...mesh.surface import Surface
 from ...mesh.walls import describe_walls
 from .base import requirement
-from .wording import edges, face_name, join_problems, located, vertices, with_explanation
+from .faults import Elements, Fault
+from .wording import edges, join_problems, located, place, vertices, with_explanation
 
 
 @requirement(
@@ -39,7 +40,7 @@ def manifold(surface: Surface) -> str:
     split = np.flatnonzero(surface.split_stars)
     result = join_problems(
         edges(surface, surface.nonmanifold_edges, "with more than two faces"),
-        vertices(split, "whose star is not one fan", "whose stars are not one fan"),
+        vertices(surface, split, "whose star is not one fan", "whose stars are not one fan"),
     )
     return with_explanation(result, describe_walls(surface))
 
@@ -54,8 +55,11 @@ def oriented(surface: Surface) -> str:
     lost = ~surface.orientation.orientable
     faces = np.flatnonzero(lost[surface.orientation.patch])
     patches = int(np.count_nonzero(lost))
-    first = face_name(surface, faces[0]) if len(faces) else ""
-    return located(patches, "patch without an orientation", "patches without an orientation", first) if patches else ""
+    if not patches:
+        return ""
+    first = place(surface, "face", faces[0])
+    one, many = "patch without an orientation", "patches without an orientation"
+    return located(patches, one, many, first, Elements("face", faces))
 
 
 @requirement(
@@ -88,11 +92,12 @@ def _inside_out(surface: Surface, apart: Surface) -> str:
     turned = np.flatnonzero(solids.inside_out)
     if not len(turned):
         return ""
-    first = face_name(surface, solids.first_face[turned[0]])
-    fault = located(len(turned), "closed patch is inside out", "closed patches are inside out", first)
+    first = place(surface, "face", solids.first_face[turned[0]])
+    faces = Elements("face", np.flatnonzero(np.isin(apart.orientation.patch, turned)))
+    fault = located(len(turned), "closed patch is inside out", "closed patches are inside out", first, faces)
     if len(turned) > 1:
-        return f"{fault}: {list_kinds(apart, turned)}"
-    return f"{fault}: a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
+        return fault + f": {list_kinds(apart, turned)}"
+    return fault + f": a {'cavity of positive' if solids.depth[turned[0]] % 2 else 'body of negative'} volume"
 
 
 def _crossing(surface: Surface, apart: Surface) -> str:
@@ -100,11 +105,12 @@ def _crossing(surface: Surface, apart: Surface) -> str:
     solids = apart.solids
     if not len(solids.crossing):
         return ""
-    some = [[face_name(surface, solids.first_face[patch]) for patch in pair] for pair in solids.crossing[:3]]
+    some = [Elements("face", solids.first_face[pair]).names(surface) for pair in solids.crossing[:3]]
     more = len(solids.crossing) - len(some)
     listed = ", ".join(" and ".join(pair) for pair in some) + (f", {more:,} more" if more else "")
     patches = len(np.unique(solids.crossing))
-    return f"{patches:,} closed patches cross or coincide ({listed}): they have no depth and are kept as wound"
+    text = f"{patches:,} closed patches cross or coincide ({listed}): they have no depth and are kept as wound"
+    return Fault(text, Elements("face", solids.first_face[np.unique(solids.crossing)]))
 
 
 @requirement("connected", remedy="remove loose parts; `--table components=PATH` lists them", after="outward")
@@ -154,5 +160,5 @@ def components(surface: Surface, wanted: float) -> str:
         return ""
     if count == 1:
         return f"1 component, expected {wanted}"
-    second = face_name(surface, np.flatnonzero(surface.components.face == 1)[0])
+    second = place(surface, "face", np.flatnonzero(surface.components.face == 1)[0])
     return f"{count:,} components, expected {wanted} (the second starts at {second})"

@@ -8,45 +8,52 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...mesh.surface import Surface
-from ...support.words import counted
+from ...support.words import counted, format_point
+from .faults import ElementKind, Elements, Fault, elements_of
 
 
-def located(count: int, singular: str, plural: str, first: str) -> str:
+def located(count: int, singular: str, plural: str, first: str, *elements: Elements) -> Fault:
     """A fault with count and first place: `1 edge … (edge 2-7)` or `3 edges … (first: edge 2-7)`."""
-    return f"{counted(count, singular, plural)} ({first if count == 1 else f'first: {first}'})"
+    text = f"{counted(count, singular, plural)} ({first if count == 1 else f'first: {first}'})"
+    return Fault(text, *elements)
 
 
-def edge_name(surface: Surface, edge: Any) -> str:
-    """Name of an edge by its two vertices."""
-    return f"edge {surface.edges.a[edge]}-{surface.edges.b[edge]}"
+def place(surface: Surface, kind: ElementKind, element: Any) -> str:
+    """Name and position of an element: `edge 2-7 at (0.5, 1, 0)`."""
+    first = Elements(kind, np.array([element]))
+    return f"{first.names(surface)[0]} at {format_point(first.positions(surface)[0])}"
 
 
-def face_name(surface: Surface, face: Any) -> str:
-    """Name of a face by its polygon in the file."""
-    return f"face {face}" if surface.polygon is None else f"polygon {surface.polygon[face]}"
-
-
-def edges(surface: Surface, mask: NDArray[np.bool_], what: str) -> str:
+def edges(surface: Surface, mask: NDArray[np.bool_], what: str) -> Fault:
     """The fault of the edges of a mask; empty for none."""
-    where = np.flatnonzero(mask)
-    return located(len(where), f"edge {what}", f"edges {what}", edge_name(surface, where[0])) if len(where) else ""
+    return _elements(surface, "edge", np.flatnonzero(mask), f"edge {what}", f"edges {what}")
 
 
-def faces(surface: Surface, where: NDArray[np.integer[Any]], what: str) -> str:
+def faces(surface: Surface, where: NDArray[np.integer[Any]], what: str) -> Fault:
     """The fault of the (n,) given faces; empty for none."""
-    return located(len(where), f"face {what}", f"faces {what}", face_name(surface, where[0])) if len(where) else ""
+    return _elements(surface, "face", where, f"face {what}", f"faces {what}")
 
 
-def vertices(where: NDArray[np.integer[Any]], singular: str, plural: str) -> str:
+def vertices(surface: Surface, where: NDArray[np.integer[Any]], singular: str, plural: str) -> Fault:
     """The fault of the (n,) given vertices; empty for none."""
-    return located(len(where), f"vertex {singular}", f"vertices {plural}", f"vertex {where[0]}") if len(where) else ""
+    return _elements(surface, "vertex", where, f"vertex {singular}", f"vertices {plural}")
 
 
-def with_explanation(problem: str, explanation: str) -> str:
+def _elements(
+    surface: Surface, kind: ElementKind, where: NDArray[np.integer[Any]], singular: str, plural: str
+) -> Fault:
+    if not len(where):
+        return Fault()
+    elements = Elements(kind, np.asarray(where, np.int64))
+    return located(len(where), singular, plural, place(surface, kind, where[0]), elements)
+
+
+def with_explanation(problem: str, explanation: str) -> Fault:
     """A fault with its explanation or remedy; empty without a fault."""
-    return f"{problem}; {explanation}" if problem and explanation else problem
+    return Fault(f"{problem}; {explanation}" if problem and explanation else problem, *elements_of(problem))
 
 
-def join_problems(*problems: str) -> str:
+def join_problems(*problems: str) -> Fault:
     """Join several faults in one line; empty without any."""
-    return ", ".join(problem for problem in problems if problem)
+    text = ", ".join(problem for problem in problems if problem)
+    return Fault(text, *(elements for problem in problems for elements in elements_of(problem)))

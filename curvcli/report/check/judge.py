@@ -11,18 +11,24 @@ from ...checks.base import Check
 from ...checks.catalogue import identities
 from ...checks.requirements.base import Required
 from ...checks.requirements.catalogue import defaults, parse, parse_sets, requirements
+from ...checks.requirements.faults import Elements, elements_of
 from ...checks.requirements.topology import manifold
 from ...curvatures.catalogue import load_passes
 from ...curvatures.engine import evaluate
 from ...curvatures.registry import passes
 from ...errors import FAILED_CHECK, OK, UsageError
 from ...mesh.scale import Scale
+from ...mesh.surface import Surface
+from ...support.arrays import or_none
 from ...support.words import escape_text, format_rounded, suggestion
 from ..model import CONVENTIONS
 from . import assertions
 from .assertions import Assertion
-from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, Outcome, Rule
+from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, Outcome, Place, Rule
 from .scopes import ScopedStatistics
+
+# Elements named for each kind of fault of a requirement.
+_PLACES = 10
 
 READABLE = "The mesh can be read and is a surface"
 
@@ -152,9 +158,30 @@ def _given(analysis: Result, chosen: Plan) -> dict[str, Any]:
 
 def _of_requirement(required: Required, analysis: Result, given: Mapping[str, Any]) -> Outcome:
     problem = required.problem(analysis.surface, given)
+    status, message = (FAIL, str(problem)) if problem else (PASS, required.requirement.statement)
+    elements = elements_of(problem)
     return Outcome(
-        required.name, REQUIREMENT, "whole", FAIL if problem else PASS, problem or required.requirement.statement
+        required.name,
+        REQUIREMENT,
+        "whole",
+        status,
+        message,
+        elements=sum(len(each.numbers) for each in elements),
+        places=_places(analysis.surface, elements),
     )
+
+
+def _places(surface: Surface, elements: Iterable[Elements]) -> list[Place]:
+    """The first elements of each kind, with their positions."""
+    places = []
+    for each in elements:
+        first = Elements(each.kind, each.numbers[:_PLACES])
+        positions = first.positions(surface).tolist()
+        places += [
+            Place(name, [or_none(x) for x in position])
+            for name, position in zip(first.names(surface), positions, strict=True)
+        ]
+    return places
 
 
 def _of_assertions(chosen: Iterable[Assertion], analysis: Result) -> Iterator[Outcome]:

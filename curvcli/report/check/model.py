@@ -16,13 +16,21 @@ IDENTITY, REQUIREMENT, ASSERTION, INPUT = "identity", "requirement", "assertion"
 PASS, FAIL, NOT_APPLICABLE, ERROR = "pass", "fail", "not_applicable", "error"
 
 
+class Place(msgspec.Struct):
+    """An element at fault: `vertex 5`, `edge 2-7` or `face 3`, and a point of it in the unit of the file."""
+
+    element: str
+    position: list[float | None]
+
+
 class Outcome(msgspec.Struct):
     """One check on one scope of one mesh.
 
     kind: `identity`, `requirement`, `assertion`, or `input` for a mesh that could not be checked. status: `pass`,
     `fail`, `not_applicable` or `error`. message: the meaning of a pass, the cause of a failure, or the reason
     for neither. value, expected, residual, tolerance: of identities, as in the report of analyze; of assertions the
-    statistic and the number it is compared with.
+    statistic and the number it is compared with. elements: number of elements at fault, as far as they are known.
+    places: the first of them.
     """
 
     name: str
@@ -34,6 +42,8 @@ class Outcome(msgspec.Struct):
     expected: Value = None
     residual: float | None = None
     tolerance: float | None = None
+    elements: int = 0
+    places: list[Place] = []
 
     @property
     def label(self) -> str:

@@ -98,6 +98,12 @@ def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, in
         # Code scanning shows a result at a line; for a mesh it is the first.
         artifact = {**_location(mesh.path), "index": index}
         result["locations"] = [{"physicalLocation": {"artifactLocation": artifact, "region": {"startLine": 1}}}]
+    if outcome.places:
+        result.setdefault("locations", [{}])[0]["logicalLocations"] = [
+            {"name": escape_text(place.element), "kind": "element"} for place in outcome.places
+        ]
     if outcome.kind != INPUT:
         result["properties"] = {"scope": escape_text(outcome.scope)}
+        if outcome.places:
+            result["properties"] |= {"elements": outcome.elements, "places": msgspec.to_builtins(outcome.places)}
     return result
