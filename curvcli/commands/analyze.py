@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import FAILED_CHECK, OK, OutputError, UsageError, worst
+from ..errors import FAILED_CHECK, OK, UsageError, worst
 from ..loading.limits import parse_weld
 from ..output.registry import listed
 from . import candidates, options
@@ -21,7 +20,7 @@ from .meshes import each_mesh, input_of
 from .outputs import one_stdout, print_report, stdin_once, table_option
 from .settings import merge_settings, setting
 from .shared_outputs import SharedOutputs
-from .stems import stem
+from .stems import check_apart, expand
 from .talk import put, say
 
 if TYPE_CHECKING:
@@ -251,27 +250,3 @@ class AnalyzeRun:
             return model(analysis)
         print_report(partial(build, analysis), summary, False, self.get, self.quiet or self.to_stdout)
         return None
-
-
-def check_apart(meshes: Sequence[str], paths: Sequence[Sequence[str]]) -> None:
-    """Errors: OutputError where `{stem}` gives two meshes one output."""
-    taken: dict[str, int] = {}
-    for index, each in enumerate(paths):
-        for path in each:
-            other = taken.setdefault(path, index)
-            if path != "-" and other != index:
-                both = f"{meshes[other]} and {meshes[index]}"
-                raise OutputError(f"{path}: {both} would share this output; `curvcli batch` keeps their folders apart")
-
-
-def expand(output: str, mesh: str, meshes: int) -> str:
-    """An output's path for one mesh.
-
-    Errors: UsageError when several meshes would share one output.
-    """
-    if "{stem}" not in output:
-        if meshes > 1 and output != "-":
-            raise UsageError(f"{output}: {meshes} meshes would share this output; put {{stem}} into its name")
-        return output
-    path = output.replace("{stem}", stem(mesh) if mesh != "-" else "stdin")
-    return path if path != "-" else os.path.join(os.curdir, path)  # the name of a mesh is no stream

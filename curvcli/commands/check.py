@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import LackingError, worst
+from ..errors import LackingError, UsageError, worst
 from ..loading.limits import parse_weld
 from . import candidates, options
 from .config_notes import configuration
@@ -16,12 +16,15 @@ from .limits import bounded
 from .meshes import each_mesh, input_of
 from .outputs import stdin_once
 from .settings import merge_settings, setting
+from .stems import check_apart, expand
 from .talk import put, say
 
 if TYPE_CHECKING:
+    from ..checks.requirements.faults import Elements
+    from ..output.atomic import Outputs
     from ..report.check.model import CheckedMesh, CheckReport
 
-FORMATS = ("text", "json", "junit", "sarif", "github")
+FORMATS = ("text", "json", "junit", "sarif", "github", "gitlab")
 
 # Format by the suffix of -o where --format is not given.
 _SUFFIXES = {".json": "json", ".xml": "junit", ".sarif": "sarif"}
@@ -83,9 +86,19 @@ class _Requirements(click.Option):
     "--format",
     "report_format",
     type=click.Choice(FORMATS),
-    help="Format of the report; by default from -o's suffix (.json, .xml: junit, .sarif), else text.",
+    help="Format of the report on stdout or of one -o; by default from the suffix (.json, .xml: junit, .sarif), else "
+    "text.",
 )
-@click.option("-o", "--output", metavar="FILE", default="-", help="Write the report to a file instead of stdout.")
+@options.as_json
+@click.option(
+    "-o",
+    "--output",
+    "outputs",
+    metavar="FILE",
+    multiple=True,
+    help="Write the report to a file instead of stdout, or, with the suffix of a table or a mesh, the failing elements "
+    "alone, coloured by rule; repeatable. With several meshes, {stem} stands for each one's name.",
+)
 @options.schema
 @options.force
 @options.talking
@@ -101,12 +114,42 @@ def command(meshes: tuple[str, ...], **settings: Any) -> int:
       curvcli check parts/*.stl --require closed,outward -o check.xml
       curvcli check torus.obj --require genus=1 --assert 'absmax(h_signed) <= 50'
       curvcli check scan.ply --allow manifold,no-degenerate
-      curvcli check part.stl --require printable
+      curvcli check part.stl --require printable -o check.sarif -o failures.ply
     """
     if not meshes:
         raise click.UsageError("no MESH given", click.get_current_context())
     stdin_once(meshes)
     return CheckRun(meshes, **settings).all()
+
+
+class CheckOutputs:
+    """Files of one call of `check`. reports: path and format of each; failures: path and suffix for each mesh.
+
+    given: the format of stdout, and of a lone report. as_json: one more report on stdout. Without a report among the
+    outputs, one goes to stdout.
+    Errors: UsageError for one file of failures of several meshes, or two reports on stdout.
+    """
+
+    def __init__(self, meshes: Sequence[str], outputs: Sequence[str], given: str | None, as_json: bool) -> None:
+        from ..output.registry import suffixes
+
+        ends = [(path, os.path.splitext(path)[1].lower()) for path in outputs]
+        own = [(path, end) for path, end in ends if end not in _SUFFIXES and end in suffixes(("table", "mesh"))]
+        reports = [(path, end) for path, end in ends if (path, end) not in own]
+        lone = len(reports) == 1
+        self.reports = [
+            (path, given if given and (lone or path == "-") else _SUFFIXES.get(end, "text")) for path, end in reports
+        ]
+        if as_json:
+            self.reports.append(("-", "json"))
+        elif not reports:
+            self.reports.append(("-", given or "text"))
+        if sum(path == "-" for path, _ in self.reports) > 1 or (as_json and given not in (None, "json") and not lone):
+            raise UsageError("two reports would go to stdout; name a file for one of them by -o")
+        self.failures = [[(expand(path, mesh, len(meshes)), end) for path, end in own] for mesh in meshes]
+        check_apart(meshes, [[path for path, _ in each] for each in self.failures])
+        self.paths = [path for path, _ in self.reports if path != "-"]
+        self.paths += [path for each in self.failures for path, _ in each]
 
 
 class CheckRun:
@@ -121,7 +164,8 @@ class CheckRun:
         allow: tuple[str, ...],
         asserted: tuple[str, ...],
         report_format: str | None,
-        output: str,
+        as_json: bool,
+        outputs: tuple[str, ...],
         weld: str,
         force: bool,
         quiet: bool,
@@ -138,8 +182,8 @@ class CheckRun:
         self.limits: dict[str, Any] = {"input_format": input_format, "max_faces": max_faces, "max_bytes": max_bytes}
         merge_settings(conventions)
         self.weld = parse_weld(weld)
-        self.output, self.force, self.quiet, self.verbose = output, force, quiet, verbose
-        self.format = report_format or _SUFFIXES.get(os.path.splitext(output)[1].lower(), "text")
+        self.force, self.quiet, self.verbose = force, quiet, verbose
+        self.outputs = CheckOutputs(meshes, outputs, report_format, as_json)
         scales = parse_scales(conventions["rings"], conventions["radius"])
         self.plan = plan(require, allow, asserted, scales, conventions["regions"] is not None, sets)
 
@@ -148,28 +192,28 @@ class CheckRun:
         from ..output.atomic import Outputs
         from ..report.check.model import failed_input, report_of
 
-        with Outputs([] if self.output == "-" else [self.output], self.force) as outputs:
+        with Outputs(self.outputs.paths, self.force) as outputs:
             results = each_mesh(
-                self.meshes, lambda number: self.judged(self.meshes[number]), failed_input, alone=LackingError
+                self.meshes, lambda number: self.judged(number, outputs), failed_input, alone=LackingError
             )
             code = worst([mesh.exit_code for mesh in results])
             report = report_of(self.plan.rules, results, code, configuration())
-            if self.output == "-":
-                self.show(report)
-            else:
-                with outputs.open(self.output) as stream:
-                    stream.write(self.written(report))
-                self.print_failures(report)
+            for path, format in self.outputs.reports:
+                if path != "-":
+                    with outputs.open(path) as stream:
+                        stream.write(_writer(format, self.verbose)(report))
+            self.show(report)
         return report.exit_code
 
-    def judged(self, mesh: str) -> CheckedMesh:
-        """Load the mesh, compute its columns and judge it."""
+    def judged(self, number: int, outputs: Outputs) -> CheckedMesh:
+        """Load the mesh, compute its columns, judge it, and write its failing elements."""
         from ..analysis.request import Request
         from ..analysis.result import Result, compute
         from ..loading.load import load
         from ..report.check.judge import judge
         from .progress import phase
 
+        mesh = self.meshes[number]
         with phase(f"reading {mesh}", self.quiet):
             asked = {key: self.conventions[key] for key in ("orient", "normals")}
             surface = load(input_of(mesh), weld=self.weld, **asked, **self.limits)
@@ -181,20 +225,27 @@ class CheckRun:
                 **self.conventions,
             )
             analysis = compute(surface, request, Result)
-            return judge(analysis, self.plan, mesh)
+            failing: list[tuple[str, Elements]] = []
+            checked = judge(analysis, self.plan, mesh, failing)
+        if self.outputs.failures[number]:
+            from ..output.failures import write_failures
+
+            for path, suffix in self.outputs.failures[number]:
+                with outputs.open(path) as stream:
+                    write_failures(stream, suffix, analysis.surface, failing)
+        return checked
 
     def show(self, report: CheckReport) -> None:
-        """Print the report on stdout; with -q, not as text."""
-        if self.format != "text":
-            put(self.written(report))
+        """Print the report on stdout; with -q, not as text; without a report on stdout, the failures on stderr."""
+        format = next((format for path, format in self.outputs.reports if path == "-"), None)
+        if format is None:
+            self.print_failures(report)
+        elif format != "text":
+            put(_writer(format, self.verbose)(report))
         elif not self.quiet and any(mesh.status != "error" for mesh in report.meshes):
             from ..report.terminal.check import show
 
             show(report, self.verbose)
-
-    def written(self, report: CheckReport) -> bytes:
-        """The report as bytes in the chosen format."""
-        return _writer(self.format, self.verbose)(report)
 
     def print_failures(self, report: CheckReport) -> None:
         """Print failures and warnings on stderr while the report goes to a file."""
@@ -207,7 +258,7 @@ class CheckRun:
         for line in failed:
             say(line.text)
         if others:
-            say(f"{others}; {self.output} has all of them")
+            say(f"{others}; {self.outputs.reports[0][0]} has all of them")
         shown_warnings, _ = warnings([mesh for mesh in report.meshes if mesh.status == "fail"], _TOLD)
         for mesh, remark in shown_warnings:
             say(f"warning: {warning(mesh, remark)}")
@@ -224,6 +275,8 @@ def _writer(report_format: str, verbose: int) -> Callable[[CheckReport], bytes]:
             from ..report.check.sarif import write_sarif as writer
         case "github":
             from ..report.check.github import write_github as writer
+        case "gitlab":
+            from ..report.check.gitlab import write_gitlab as writer
         case _:
             from ..report.terminal.check import write_text
 

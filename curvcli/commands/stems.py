@@ -1,9 +1,11 @@
-"""Value of `{stem}` in the name of an output: a single name that cannot lead into another folder."""
+"""`{stem}` in the names of outputs: a single name that cannot lead into another folder, one output for each mesh."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 
+from ..errors import OutputError, UsageError
 from ..loading.registry import input_formats, suffixes
 
 # Device names of Windows, whatever follows behind a dot.
@@ -31,3 +33,27 @@ def stem(mesh: str, windows: bool = os.name == "nt") -> str:
     if windows and (name.partition(".")[0].strip().casefold() in _DEVICES or name[-1:] in (".", " ")):
         name += "_"
     return name
+
+
+def check_apart(meshes: Sequence[str], paths: Sequence[Sequence[str]]) -> None:
+    """Errors: OutputError where `{stem}` gives two meshes one output."""
+    taken: dict[str, int] = {}
+    for index, each in enumerate(paths):
+        for path in each:
+            other = taken.setdefault(path, index)
+            if path != "-" and other != index:
+                both = f"{meshes[other]} and {meshes[index]}"
+                raise OutputError(f"{path}: {both} would share this output; `curvcli batch` keeps their folders apart")
+
+
+def expand(output: str, mesh: str, meshes: int) -> str:
+    """An output's path for one mesh.
+
+    Errors: UsageError when several meshes would share one output.
+    """
+    if "{stem}" not in output:
+        if meshes > 1 and output != "-":
+            raise UsageError(f"{output}: {meshes} meshes would share this output; put {{stem}} into its name")
+        return output
+    path = output.replace("{stem}", stem(mesh) if mesh != "-" else "stdin")
+    return path if path != "-" else os.path.join(os.curdir, path)  # the name of a mesh is no stream

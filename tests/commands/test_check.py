@@ -121,8 +121,9 @@ def test_4_no_folder_for_the_output(tmp_path: Path) -> None:
 
 
 BROKEN = """
+from curvcli.checks.requirements.base import registered as kinds
 from curvcli.checks.requirements.catalogue import requirements
-kinds = requirements()
+requirements()
 from dataclasses import replace
 def broken(analysis): raise RuntimeError("a defect\\nof ours")
 kinds["connected"] = replace(kinds["connected"], test=broken)

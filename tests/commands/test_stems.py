@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from curvcli.commands.analyze import expand
-from curvcli.commands.stems import stem
+from curvcli.commands.stems import expand, stem
 from tests.commands.conftest import Run
 from tests.helpers.cli.program import CUBE
 

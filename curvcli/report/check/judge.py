@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -89,13 +89,19 @@ def plan(
     )
 
 
-def judge(analysis: Result, chosen: Plan, path: str) -> CheckedMesh:
-    """Run every check of the plan on an analysis that tested the plan's identities."""
+def judge(analysis: Result, chosen: Plan, path: str, failing: list[tuple[str, Elements]] | None = None) -> CheckedMesh:
+    """Run every check of the plan on an analysis that tested the plan's identities.
+
+    failing: takes the elements that fail each requirement.
+    """
     flaw = manifold(analysis.surface)
     given = _given(analysis, chosen)
+    problems = [(required, required.problem(analysis.surface, given)) for required in chosen.requirements]
+    if failing is not None:
+        failing += [(required.name, each) for required, problem in problems for each in elements_of(problem)]
     outcomes = [
         *(_of_identity(check, flaw) for check in analysis.checks),
-        *(_of_requirement(requirement, analysis, given) for requirement in chosen.requirements),
+        *(_of_requirement(required, problem, analysis.surface) for required, problem in problems),
         *_of_assertions(chosen.assertions, analysis),
     ]
     failed = any(outcome.status == FAIL for outcome in outcomes)
@@ -156,8 +162,7 @@ def _given(analysis: Result, chosen: Plan) -> dict[str, Any]:
     return {**evaluate(passes, analysis.surface, needs, area=area, known=known), "mean": analysis.request.mean}
 
 
-def _of_requirement(required: Required, analysis: Result, given: Mapping[str, Any]) -> Outcome:
-    problem = required.problem(analysis.surface, given)
+def _of_requirement(required: Required, problem: str, surface: Surface) -> Outcome:
     status, message = (FAIL, str(problem)) if problem else (PASS, required.requirement.statement)
     elements = elements_of(problem)
     return Outcome(
@@ -167,7 +172,7 @@ def _of_requirement(required: Required, analysis: Result, given: Mapping[str, An
         status,
         message,
         elements=sum(len(each.numbers) for each in elements),
-        places=_places(analysis.surface, elements),
+        places=_places(surface, elements),
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+
 import msgspec
 
 from ..._version import __version__
@@ -117,6 +119,12 @@ def sentence(mesh: CheckedMesh, outcome: Outcome) -> str:
         case _:
             said = f"{outcome.name} passes{on}: {outcome.message}"
     return f"{escape_text(mesh.path)}: {escape_text(said)}"
+
+
+def fingerprint(mesh: CheckedMesh, outcome: Outcome) -> str:
+    """Name of a failure that stays the same from run to run: a hash of the path, the check and its scope."""
+    identity = "\0".join((mesh.path, outcome.label)).encode("utf-8", "surrogateescape")
+    return hashlib.sha256(identity).hexdigest()
 
 
 def write_json(report: CheckReport) -> bytes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from pathlib import PurePath
 from typing import Any
@@ -13,7 +12,7 @@ import msgspec
 from ..._version import __version__
 from ...support.words import escape_sarif, escape_text
 from ..model import encode
-from .model import INPUT, CheckedMesh, CheckReport, Outcome, sentence
+from .model import INPUT, CheckedMesh, CheckReport, Outcome, fingerprint, sentence
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
@@ -85,14 +84,13 @@ def _artifact(mesh: CheckedMesh) -> dict[str, Any]:
 
 
 def _result(mesh: CheckedMesh, index: int, outcome: Outcome, place: dict[str, int]) -> dict[str, Any]:
-    identity = "\0".join((mesh.path, outcome.label)).encode("utf-8", "surrogateescape")
     result: dict[str, Any] = {
         "ruleId": escape_text(outcome.name),
         "ruleIndex": place[outcome.name],
         "kind": "fail",
         "level": "error",
         "message": {"text": escape_sarif(sentence(mesh, outcome))},
-        "partialFingerprints": {"curvcli/v1": hashlib.sha256(identity).hexdigest()},
+        "partialFingerprints": {"curvcli/v1": fingerprint(mesh, outcome)},
     }
     if mesh.path != "-":
         # Code scanning shows a result at a line; for a mesh it is the first.
