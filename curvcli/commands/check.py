@@ -20,7 +20,7 @@ from .stems import check_apart, expand
 from .talk import put, say
 
 if TYPE_CHECKING:
-    from ..checks.requirements.faults import Elements
+    from ..checks.requirements.faults import FaultyElements
     from ..output.atomic import Outputs
     from ..report.check.model import CheckedMesh, CheckReport
 
@@ -225,7 +225,7 @@ class CheckRun:
                 **self.conventions,
             )
             analysis = compute(surface, request, Result)
-            failing: list[tuple[str, Elements]] = []
+            failing: list[tuple[str, FaultyElements]] = []
             checked = judge(analysis, self.plan, mesh, failing)
         if self.outputs.failures[number]:
             from ..output.failures import write_failures

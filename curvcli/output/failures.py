@@ -8,14 +8,14 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks.requirements.faults import Elements
+from ..checks.requirements.faults import FaultyElements
 from ..mesh.file import Labels
 from ..mesh.surface import Surface
 from .registry import TableFormat, output_formats
 from .tables.columns import Table
 
 # A rule, and elements that fail it.
-Failing = Sequence[tuple[str, Elements]]
+Failing = Sequence[tuple[str, FaultyElements]]
 
 
 def write_failures(stream: BinaryIO, suffix: str, surface: Surface, failing: Failing) -> None:

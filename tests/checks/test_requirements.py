@@ -12,7 +12,7 @@ import pytest
 
 from curvcli.api import analyze
 from curvcli.checks.requirements.catalogue import defaults, requirements
-from curvcli.checks.requirements.faults import Elements, Fault, elements_of
+from curvcli.checks.requirements.faults import Fault, FaultyElements, elements_of
 from curvcli.errors import UsageError
 from curvcli.report.check.judge import plan
 from tests.helpers import meshes
@@ -217,5 +217,5 @@ def test_places_are_elements_with_positions() -> None:
 
 def test_a_plain_text_is_a_fault_without_elements() -> None:
     assert elements_of("no patch is closed") == ()
-    joined_faults = "lost: " + Fault("1 face", Elements("face", np.array([3]))) + "; remesh"
+    joined_faults = "lost: " + Fault("1 face", FaultyElements("face", np.array([3]))) + "; remesh"
     assert (joined_faults, elements_of(joined_faults)[0].numbers.tolist()) == ("lost: 1 face; remesh", [3])

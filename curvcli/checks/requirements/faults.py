@@ -13,8 +13,8 @@ from ...support.arrays import Floats, Ints
 ElementKind = Literal["vertex", "edge", "face"]
 
 
-class Elements(NamedTuple):
-    """Elements of a surface. numbers: (n,) in the order of the tables."""
+class FaultyElements(NamedTuple):
+    """FaultyElements of a surface. numbers: (n,) in the order of the tables."""
 
     kind: ElementKind
     numbers: Ints
@@ -47,9 +47,9 @@ class Elements(NamedTuple):
 class Fault(str):
     """The text of a fault; empty for none. elements: those at fault, as far as they are known."""
 
-    elements: tuple[Elements, ...]
+    elements: tuple[FaultyElements, ...]
 
-    def __new__(cls, text: str = "", *elements: Elements) -> Fault:
+    def __new__(cls, text: str = "", *elements: FaultyElements) -> Fault:
         fault = super().__new__(cls, text)
         fault.elements = elements
         return fault
@@ -61,6 +61,6 @@ class Fault(str):
         return Fault(str.__add__(before, self), *self.elements)
 
 
-def elements_of(problem: str) -> tuple[Elements, ...]:
+def elements_of(problem: str) -> tuple[FaultyElements, ...]:
     """The elements at fault; none for a plain text."""
     return problem.elements if isinstance(problem, Fault) else ()

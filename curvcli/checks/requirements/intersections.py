@@ -9,7 +9,7 @@ from ...mesh.intersections.search import FaceContacts, face_contacts
 from ...mesh.surface import Surface
 from ...support.words import counted, format_point
 from .base import requirement
-from .faults import Elements, Fault
+from .faults import Fault, FaultyElements
 from .wording import join_problems
 
 # Pairs named with their place.
@@ -55,11 +55,11 @@ def _listed(surface: Surface, contacts: FaceContacts, kind: int, one: str, many:
     if not count:
         return ""
     first = contacts.first_of(kind, _FIRST)
-    names = (Elements("face", faces).names(surface) for faces in (first.one, first.other))
+    names = (FaultyElements("face", faces).names(surface) for faces in (first.one, first.other))
     pairs = [
         f"{face} and {other} at {format_point(point)}"
         for face, other, point in zip(*names, first.points(surface), strict=True)
     ]
     more = [] if count == len(pairs) else ["…"]
     faces = np.unique(np.concatenate([contacts.one[rows], contacts.other[rows]]))
-    return Fault(f"{counted(count, one, many)} ({'; '.join([*pairs, *more])})", Elements("face", faces))
+    return Fault(f"{counted(count, one, many)} ({'; '.join([*pairs, *more])})", FaultyElements("face", faces))

@@ -13,7 +13,7 @@ from ...mesh.solids.notices import list_kinds
 from ...mesh.surface import Surface
 from ...mesh.walls import describe_walls
 from .base import requirement
-from .faults import Elements, Fault
+from .faults import Fault, FaultyElements
 from .wording import edges, join_problems, located, place, vertices, with_explanation
 
 
@@ -59,7 +59,7 @@ def oriented(surface: Surface) -> str:
         return ""
     first = place(surface, "face", faces[0])
     one, many = "patch without an orientation", "patches without an orientation"
-    return located(patches, one, many, first, Elements("face", faces))
+    return located(patches, one, many, first, FaultyElements("face", faces))
 
 
 @requirement(
@@ -93,7 +93,7 @@ def _inside_out(surface: Surface, apart: Surface) -> str:
     if not len(turned):
         return ""
     first = place(surface, "face", solids.first_face[turned[0]])
-    faces = Elements("face", np.flatnonzero(np.isin(apart.orientation.patch, turned)))
+    faces = FaultyElements("face", np.flatnonzero(np.isin(apart.orientation.patch, turned)))
     fault = located(len(turned), "closed patch is inside out", "closed patches are inside out", first, faces)
     if len(turned) > 1:
         return fault + f": {list_kinds(apart, turned)}"
@@ -105,12 +105,12 @@ def _crossing(surface: Surface, apart: Surface) -> str:
     solids = apart.solids
     if not len(solids.crossing):
         return ""
-    some = [Elements("face", solids.first_face[pair]).names(surface) for pair in solids.crossing[:3]]
+    some = [FaultyElements("face", solids.first_face[pair]).names(surface) for pair in solids.crossing[:3]]
     more = len(solids.crossing) - len(some)
     listed = ", ".join(" and ".join(pair) for pair in some) + (f", {more:,} more" if more else "")
     patches = len(np.unique(solids.crossing))
     text = f"{patches:,} closed patches cross or coincide ({listed}): they have no depth and are kept as wound"
-    return Fault(text, Elements("face", solids.first_face[np.unique(solids.crossing)]))
+    return Fault(text, FaultyElements("face", solids.first_face[np.unique(solids.crossing)]))
 
 
 @requirement("connected", remedy="remove loose parts; `--table components=PATH` lists them", after="outward")

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from ...mesh.surface import Surface
 from ...support.words import counted, format_point
-from .faults import ElementKind, Elements, Fault, elements_of
+from .faults import ElementKind, Fault, FaultyElements, elements_of
 
 
-def located(count: int, singular: str, plural: str, first: str, *elements: Elements) -> Fault:
+def located(count: int, singular: str, plural: str, first: str, *elements: FaultyElements) -> Fault:
     """A fault with count and first place: `1 edge … (edge 2-7)` or `3 edges … (first: edge 2-7)`."""
     text = f"{counted(count, singular, plural)} ({first if count == 1 else f'first: {first}'})"
     return Fault(text, *elements)
@@ -20,7 +20,7 @@ def located(count: int, singular: str, plural: str, first: str, *elements: Eleme
 
 def place(surface: Surface, kind: ElementKind, element: Any) -> str:
     """Name and position of an element: `edge 2-7 at (0.5, 1, 0)`."""
-    first = Elements(kind, np.array([element]))
+    first = FaultyElements(kind, np.array([element]))
     return f"{first.names(surface)[0]} at {format_point(first.positions(surface)[0])}"
 
 
@@ -44,7 +44,7 @@ def _elements(
 ) -> Fault:
     if not len(where):
         return Fault()
-    elements = Elements(kind, np.asarray(where, np.int64))
+    elements = FaultyElements(kind, np.asarray(where, np.int64))
     return located(len(where), singular, plural, place(surface, kind, where[0]), elements)
 
 

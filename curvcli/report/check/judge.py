@@ -11,7 +11,7 @@ from ...checks.base import Check
 from ...checks.catalogue import identities
 from ...checks.requirements.base import Required
 from ...checks.requirements.catalogue import defaults, parse, parse_sets, requirements
-from ...checks.requirements.faults import Elements, elements_of
+from ...checks.requirements.faults import FaultyElements, elements_of
 from ...checks.requirements.topology import manifold
 from ...curvatures.catalogue import load_passes
 from ...curvatures.engine import evaluate
@@ -24,10 +24,10 @@ from ...support.words import escape_text, format_rounded, suggestion
 from ..model import CONVENTIONS
 from . import assertions
 from .assertions import Assertion
-from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, Outcome, Place, Rule
+from .model import ASSERTION, FAIL, IDENTITY, INPUT, PASS, REQUIREMENT, CheckedMesh, FaultPlace, Outcome, Rule
 from .scopes import ScopedStatistics
 
-# Elements named for each kind of fault of a requirement.
+# FaultyElements named for each kind of fault of a requirement.
 _PLACES = 10
 
 READABLE = "The mesh can be read and is a surface"
@@ -89,7 +89,9 @@ def plan(
     )
 
 
-def judge(analysis: Result, chosen: Plan, path: str, failing: list[tuple[str, Elements]] | None = None) -> CheckedMesh:
+def judge(
+    analysis: Result, chosen: Plan, path: str, failing: list[tuple[str, FaultyElements]] | None = None
+) -> CheckedMesh:
     """Run every check of the plan on an analysis that tested the plan's identities.
 
     failing: takes the elements that fail each requirement.
@@ -176,14 +178,14 @@ def _of_requirement(required: Required, problem: str, surface: Surface) -> Outco
     )
 
 
-def _places(surface: Surface, elements: Iterable[Elements]) -> list[Place]:
+def _places(surface: Surface, elements: Iterable[FaultyElements]) -> list[FaultPlace]:
     """The first elements of each kind, with their positions."""
     places = []
     for each in elements:
-        first = Elements(each.kind, each.numbers[:_PLACES])
+        first = FaultyElements(each.kind, each.numbers[:_PLACES])
         positions = first.positions(surface).tolist()
         places += [
-            Place(name, [or_none(x) for x in position])
+            FaultPlace(name, [or_none(x) for x in position])
             for name, position in zip(first.names(surface), positions, strict=True)
         ]
     return places

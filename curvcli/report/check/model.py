@@ -18,7 +18,7 @@ IDENTITY, REQUIREMENT, ASSERTION, INPUT = "identity", "requirement", "assertion"
 PASS, FAIL, NOT_APPLICABLE, ERROR = "pass", "fail", "not_applicable", "error"
 
 
-class Place(msgspec.Struct):
+class FaultPlace(msgspec.Struct):
     """An element at fault: `vertex 5`, `edge 2-7` or `face 3`, and a point of it in the unit of the file."""
 
     element: str
@@ -45,7 +45,7 @@ class Outcome(msgspec.Struct):
     residual: float | None = None
     tolerance: float | None = None
     elements: int = 0
-    places: list[Place] = []
+    places: list[FaultPlace] = []
 
     @property
     def label(self) -> str:
