@@ -43,7 +43,7 @@ def with_regions(
 def splits_itself(name: str, settings: EstimatorSettings) -> bool:
     """True for a measure whose pass splits it over the faces, where one of its settings differs between them."""
     owner = passes.provider(name.partition(AT_SCALE)[0])
-    values = (settings.values.get(f"{owner.name}.{each.name}", 0.0) for each in owner.settings)
+    values = (settings.values.get(each.key(owner.name), 0.0) for each in owner.settings)
     return owner.of_faces is not None and any(np.ndim(value) for value in values)
 
 

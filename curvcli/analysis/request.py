@@ -169,7 +169,7 @@ class Request:
         used = {need for step in order for need in step.needs}
         owners: list[Configurable] = [*order, *derived_for(self.chosen, self.values)]
         values: dict[str, SettingValue] = {
-            f"{owner.name}.{each.name}": each.default for owner in owners for each in owner.settings
+            each.key(owner.name): each.default for owner in owners for each in owner.settings
         }
         values |= {name: value for name, value in self.values.items() if name in values}
         settings = self.settings

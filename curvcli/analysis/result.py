@@ -218,9 +218,13 @@ class Result:
 
     def _split(self, name: str) -> tuple[Floats, Floats]:
         """Parts of the faces in a measure that its pass splits, and the sizes of their terms."""
-        self.include(needs(passes.provider(name), self.request.area))
-        known = {**self.columns, **self.besides}
-        return parts_of_faces(passes.provider(name), self.surface, known, self.request.area, self.settings)
+        plain, at, scale = name.partition(AT_SCALE)
+        step = passes.provider(plain)
+        names = needs(step, self.request.area)
+        at_scale = [need + at + scale if passes.depends_on_scale(need) else need for need in names]
+        self.include(at_scale)
+        known = {need: self.computed(full) for need, full in zip(names, at_scale, strict=True)}
+        return parts_of_faces(step, self.surface, known, self.request.area, self.settings)
 
     def _checked(self, groups: Groups) -> list[Check]:
         """Checks of every group; of very many groups, those that fail."""

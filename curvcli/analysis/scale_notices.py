@@ -20,7 +20,7 @@ from ..support.words import format_rounded
 from .distortion import FACTOR, distorted
 
 _SCALED = ("willmore_ring", "willmore_corrected", "willmore_fit")
-_ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal")
+_ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal", "helfrich")
 STARS = (
     *("h", "h_signed", "h_hks", "h_perp", "h_normal", "K_density", "kappa_1", "kappa_2", "kappa_max"),
     *("shape_index", "curvedness", *_ENERGIES),
@@ -115,6 +115,7 @@ def of_stars(
     if not shown:
         return
     noise = roughness(surface, columns)
+    corrected = "helfrich_corrected" if set(shown) == {"helfrich"} else "willmore_corrected"
     scaled = {passes.quantity(name).total or "": name for name in chosen if name.partition(AT_SCALE)[0] in _SCALED}
     at_scale = {key: totals[key] for key in scaled if totals.get(key) is not None}
     if noise is None and asked:
@@ -130,7 +131,7 @@ def of_stars(
             f"triangles, not the surface ({values})",
             "compare the totals at a scale; where they agree, trust them"
             if at_scale
-            else "-p willmore_corrected at a --radius or --rings above the steps is that of the surface behind them",
+            else f"-p {corrected} at a --radius or --rings above the steps is that of the surface behind them",
             len(shown),
         )
 

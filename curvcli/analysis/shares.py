@@ -92,6 +92,8 @@ class Partition:
         values, total = self._faces.sum(parts), Segments(None, 1, len(column)).sum(column)[0]
         stars = 2 * (int(self.surface.degree.max()) + 3) * EPSILON * float(sizes.sum())
         bound = float(rounding(self.surface, Segments(None, 1, len(sizes)).sum(sizes))[0]) + stars
+        if passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0]) and np.isnan(column).all():
+            values, total = np.full_like(values, np.nan), np.nan  # no estimate anywhere is no energy of 0
         exponents = quantity.length_exponent, quantity.mean_degree
         return Share(str(quantity.total), *exponents, values, np.asarray(total), np.asarray(bound), quantity.energy)
 

@@ -51,7 +51,8 @@ def presets() -> dict[str, Sequence[str]]:
 
 def _estimates(quantity: Quantity) -> bool:
     """Test for a curvature, a shape index or an energy at a scale, as opposed to directions and conditions."""
-    return (quantity.kind in ("density", "measure") or quantity.signed) and passes.depends_on_scale(quantity.name)
+    curvature = quantity.kind in ("density", "measure") or quantity.signed
+    return curvature and passes.depends_on_scale(quantity.name) and not quantity.energy
 
 
 def resolve(names: Iterable[str]) -> list[str]:

@@ -62,7 +62,7 @@ def arguments(
 
 def values_of(step: Configurable, surface: Surface, settings: EstimatorSettings = DEFAULTS) -> dict[str, Any]:
     """The values of the parameters of a pass or a derived total by name, in the unit of computation."""
-    values = {each.name: settings.values.get(f"{step.name}.{each.name}", each.default) for each in step.settings}
+    values = {each.name: settings.values.get(each.key(step.name), each.default) for each in step.settings}
     if surface.unit_exponent:
         for each in step.settings:
             if each.length_exponent:

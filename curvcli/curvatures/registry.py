@@ -62,21 +62,23 @@ class Pass:
         from .engine import evaluate, in_file_unit
 
         surface = as_surface(surface)
-        settings = EstimatorSettings(values={f"{self.name}.{k}": self._value(k, v, surface) for k, v in values.items()})
+        given = [self._value(key, value, surface) for key, value in values.items()]
+        settings = EstimatorSettings(values=dict(given))
         names = [quantity.name for quantity in self.provides]
         columns = evaluate(self.registry or passes, surface, names, settings=settings)
         shown = {q.name: in_file_unit(q, columns[q.name], surface) for q in self.provides}
         return shown[self.provides[0].name] if len(shown) == 1 else shown
 
-    def _value(self, key: str, value: Any, surface: Any) -> Any:
-        """The value of a parameter; an array has one for each face."""
+    def _value(self, key: str, value: Any, surface: Any) -> tuple[str, Any]:
+        """The full name and the value of a parameter; an array has one for each face."""
         known = {setting.name: setting for setting in self.settings}
         if key not in known:
             way_out = suggestion(key, known) if known else "; it has none"
             raise UsageError(f"pass {self.name} has no parameter {key!r}{way_out}")
         if known[key].by_region and getattr(value, "shape", ()) == (surface.n_faces,):
-            return value
-        return known[key].convert(value, f"{self.name}.{key}")
+            return known[key].key(self.name), value
+        full = known[key].key(self.name)
+        return full, known[key].convert(value, full)
 
 
 class Registry(Mapping[str, Pass]):

@@ -32,6 +32,7 @@ class Setting:
 
     description: for people. length_exponent: how it scales with length, so that the pass gets it in the unit of
     computation. parity: the sign it takes when all faces are reversed. minimum: its least value, None for none.
+    owner: the pass of the same parameter, whose values count here too, "" for none; `--set OWNER.NAME` sets both.
     name, kind, default, by_region come from the signature of the function; by_region: the annotation has `Column`, so
     that every region may have a value of its own, and the pass then gets one for each face.
     """
@@ -40,10 +41,15 @@ class Setting:
     length_exponent: int = 0
     parity: Literal["even", "odd"] = "even"
     minimum: float | None = None
+    owner: str = ""
     name: str = ""
     kind: SettingKind = "float"
     default: Scalar = 0.0
     by_region: bool = False
+
+    def key(self, step: str) -> str:
+        """Its name behind `--set`, as a parameter of the pass of this name."""
+        return f"{self.owner or step}.{self.name}"
 
     @property
     def expected(self) -> str:

@@ -97,18 +97,18 @@ def find_setting(name: str) -> tuple[str, Setting]:
     load_passes()
     owner, dot, key = name.strip().partition(".")
     owners: list[Configurable] = [*passes.values(), *derived.values()]
-    having = {f"{each.name}.{setting.name}": setting for each in owners for setting in each.settings}
+    having = {setting.key(each.name): setting for each in owners for setting in each.settings}
     known = derived.get(owner) or _pass_of(owner)
     if known is None:
         way_out = suggestion(owner, [full.partition(".")[0] for full in having], "`curvcli passes` lists the passes")
         raise UsageError(f"--set {name}: unknown pass {owner!r}{way_out}")
     if not known.settings:
         raise UsageError(f"--set {name}: the pass {owner} has no parameters; those of others: {', '.join(having)}")
-    full = f"{known.name}.{key}"
-    if full not in having:
-        names = [setting.name for setting in known.settings]
+    names = {setting.name: setting for setting in known.settings}
+    if key not in names:
         what = f"no parameter {key!r}{suggestion(key, names)}" if dot else f"give one of {', '.join(names)}"
         raise UsageError(f"--set {name}: the pass {owner} has {what}" if dot else f"--set {name}: {what}")
+    full = names[key].key(known.name)
     return full, having[full]
 
 
@@ -125,6 +125,7 @@ def implied(values: Mapping[str, SettingValue], rigidity: str | None = None) -> 
     owners = [passes[owner] for owner in dict.fromkeys(name.partition(".")[0] for name in values) if owner in passes]
     names = [quantity.name for owner in owners for quantity in owner.provides if quantity.public]
     energies = [quantity.name for quantity in passes.quantities() if quantity.energy and rigidity is not None]
+    energies = [name for name in energies if not passes.depends_on_scale(name)]
     return list(dict.fromkeys([*names, *energies]))
 
 

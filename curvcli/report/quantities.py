@@ -134,7 +134,7 @@ def parameters(owner: Configurable) -> list[ParameterFacts]:
     """Parameters of a pass or of a derived total."""
     return [
         {
-            "name": f"{owner.name}.{each.name}",
+            "name": each.key(owner.name),
             "type": each.kind,
             "default": each.default,
             "unit": Quantity("", length_exponent=each.length_exponent).unit(None),
