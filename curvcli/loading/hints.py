@@ -13,6 +13,10 @@ _VTK = (
     """`python -c "import pyvista; pyvista.read('{path}').extract_surface().save('OUT.ply')"` converts it """
     "(`pip install 'curvcli[pictures]'`)"
 )
+_MESHLAB = (
+    """`python -c "import pymeshlab; s = pymeshlab.MeshSet(); s.load_new_mesh('{path}'); """
+    """s.generate_by_merging_visible_meshes(); s.save_current_mesh('OUT.ply')"` converts it (`pip install pymeshlab`)"""
+)
 _CAD = "export it as STL from a CAD program"
 _GMSH = f"{_CAD}, or by `gmsh {{file}} -2 -o OUT.stl`"
 _SCENE = "export it as PLY, OBJ or STL from Blender"
@@ -32,12 +36,13 @@ _WAYS_OUT = {
         ("3dm", "amf", "catpart", "dwg", "dxf", "f3d", "fcstd", "ipt", "jt", "prt", "scad", "sldprt", "x_t"),
         _CAD,
     ),
-    **dict.fromkeys(("3ds", "abc", "blend", "c4d", "dae", "fbx", "ma", "max", "mb", "usd", "usda", "usdz"), _SCENE),
+    **dict.fromkeys(("abc", "blend", "c4d", "fbx", "ma", "max", "mb", "usd", "usda", "usdz"), _SCENE),
+    **dict.fromkeys(("3ds", "ctm", "dae", "wrl", "x3d"), _MESHLAB),
     **dict.fromkeys(("e57", "las", "laz", "pcd", "pts", "xyz"), _POINTS),
     **dict.fromkeys(("dcm", "mha", "mrc", "nhdr", "nii", "nrrd", "tif", "tiff"), _VOLUME),
     **dict.fromkeys(("7z", "bz2", "tar", "tgz", "xz", "zip", "zst"), _UNPACK),
     **dict.fromkeys(("annot", "label"), _LABELS),
-    **dict.fromkeys(("csv", "json", "parquet", "tsv"), _TABLE),
+    **dict.fromkeys(("csv", "json", "jsonl", "parquet", "tsv"), _TABLE),
 }
 _PLAIN = re.compile(r"[\w./ +-]+", re.ASCII)
 _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
+from functools import cache
+from pathlib import Path
 
 from curvcli.loading.registry import InputFormat, input_formats, suffixes
 from curvcli.output.registry import output_formats
@@ -18,9 +21,17 @@ _HOLDS = {
     "picture": "a picture",
 }
 
-_ROWS: dict[str, Callable[[InputFormat], str]] = {
+# CPU seconds of each reader per million vertices, by `python -m benchmarks.reading --save`.
+_MEASURED = Path(__file__).parent.parent / "validation" / "reading.json"
+
+_READERS: dict[str, Callable[[InputFormat], str]] = {
     "suffix": lambda one: ", ".join(f"`.{ending}`" for ending in one.endings),
     "encodings": lambda one: one.encodings,
+    "library": lambda one: one.library or "none",
+    "extra": lambda one: f"`{one.extra}`" if one.extra else "none",
+    "CPU seconds per million vertices": lambda one: _seconds(one.name),
+}
+_CONTENT: dict[str, Callable[[InputFormat], str]] = {
     "rows of the vertex table": lambda one: one.rows,
     "digits": lambda one: one.digits,
     "merged by default": lambda one: "equal positions" if one.separate_corners or one.seams else "nothing",
@@ -38,15 +49,29 @@ def outputs() -> str:
 
 
 def inputs() -> str:
-    """The formats of inputs, a column each."""
-    formats = input_formats().values()
-    head = ["", *(one.title for one in formats)]
-    rows = [[row, *(cell(one) for one in formats)] for row, cell in _ROWS.items()]
-    return (
-        "\n".join(["| " + " | ".join(head).strip() + " |", "|---" * len(head) + "|"])
-        + "\n"
-        + "".join(f"| {' | '.join(cells)} |\n" for cells in rows)
-    )
+    """The formats of inputs, a row each: their readers, then their content."""
+    return "\n".join([_table(_READERS), _table(_CONTENT)])
+
+
+def _table(cells: dict[str, Callable[[InputFormat], str]]) -> str:
+    head = ["", *cells]
+    rows = [[f"**{one.title}**", *(cell(one) for cell in cells.values())] for one in input_formats().values()]
+    lines = [" | ".join(head).strip(), *(" | ".join(row) for row in rows)]
+    return f"| {lines[0]} |\n{'|---' * len(head)}|\n" + "".join(f"| {line} |\n" for line in lines[1:])
+
+
+@cache
+def _measured() -> dict[str, dict[str, float]]:
+    measured: dict[str, dict[str, float]] = json.loads(_MEASURED.read_text(encoding="utf-8"))
+    return measured
+
+
+def _seconds(name: str) -> str:
+    """The seconds of curvcli, and of the other readers."""
+    seconds = _measured().get(name, {})
+    others = ", ".join(f"{reader} {value:g}" for reader, value in seconds.items() if reader != "curvcli")
+    ours = f"{seconds['curvcli']:g}" if "curvcli" in seconds else "not measured"
+    return f"{ours} ({others})" if others else ours
 
 
 def hook(text: str) -> str:

@@ -37,7 +37,7 @@ def run(message: str, folder: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("suffix", ["mesh", "inp", "nas", "bdf", "vol", "avs"])
+@pytest.mark.parametrize("suffix", ["mesh", "inp", "nas", "bdf", "vol", "avs", "dat", "tec", "fem", "mdpa", "meshb"])
 def test_meshio_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> None:
     path = tmp_path / f"a part.{suffix}"
     meshio.Mesh(POINTS, [("triangle", FACES)]).write(path)
@@ -54,6 +54,16 @@ def test_pyvista_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> Non
     path = tmp_path / f"part.{suffix}"
     (pyvista.MultiBlock([mesh]) if suffix == "vtm" else mesh).save(path)
     run(refused(path), tmp_path)
+    assert read_mesh_file(tmp_path / "OUT.ply").polygons == 4
+
+
+@pytest.mark.parametrize("suffix", ["3ds", pytest.param("wrl", marks=pytest.mark.slow), "ctm"])
+def test_pymeshlab_converts_what_it_is_said_to(suffix: str, tmp_path: Path) -> None:
+    pymeshlab = pytest.importorskip("pymeshlab")
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(POINTS, FACES))
+    meshes.save_current_mesh(str(tmp_path / f"part.{suffix}"))
+    run(refused(tmp_path / f"part.{suffix}"), tmp_path)
     assert read_mesh_file(tmp_path / "OUT.ply").polygons == 4
 
 

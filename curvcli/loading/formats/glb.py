@@ -28,6 +28,7 @@ register(
         parse=_parse,
         has_sign=has_sign,
         seams=True,
+        library="trimesh",
         encodings="binary",
         rows="positions of each node, in the order of the scene",
         digits="float32, then the transforms of nodes",

@@ -33,6 +33,7 @@ def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:
 register(
     InputFormat(
         name="fe",
+        full_name="Surface Evolver",
         parse=_parse,
         has_sign=has_sign,
         suffixes=("fe", "dmp"),

@@ -30,9 +30,11 @@ def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:
 register(
     InputFormat(
         name="gltf",
+        full_name="glTF",
         parse=_parse,
         has_sign=has_sign,
         seams=True,
+        library="trimesh",
         encodings="text with buffers inside, as base64",
         rows="positions of each node, in the order of the scene",
         digits="float32, then the transforms of nodes",
