@@ -58,6 +58,8 @@ class Batch:
         """Run the meshes; every row is on the disk before it is yielded."""
         for row in engine(todo, self.settings):
             row.options = self._options
+            if self.settings.common:
+                row.ranges_options = self.settings.ranges_digest()
             if row.status in _WRITTEN:
                 names = self._shown(self._paths[row.path])
                 row.outputs = [
@@ -87,7 +89,7 @@ class Batch:
             return None
         if row.status in _WRITTEN and not self._whole(row, item):
             return None
-        return row if row.sha256 == _hash(item) else None
+        return row if row.sha256 == content_hash(item) else None
 
     def _whole(self, row: Row, item: BatchItem) -> bool:
         """True if every output is unchanged, byte for byte; lengths are compared first."""
@@ -106,7 +108,8 @@ class Batch:
         return [escape_text(os.path.relpath(path, self.folder)).replace(os.sep, "/") for _, path in item.outputs]
 
 
-def _hash(item: BatchItem) -> str | None:
+def content_hash(item: BatchItem) -> str | None:
+    """SHA-256 of the content of a mesh, None if it cannot be read."""
     if item.content is not None:
         return hashlib.sha256(item.content).hexdigest()
     if is_url(item.place):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 from collections.abc import Callable, Iterator, Sequence
@@ -38,8 +39,8 @@ class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     """Settings that determine the results and outputs of each mesh.
 
     options: fields of the `Request` by name; those that are not there have their defaults. long: whether rows have
-    statistics. command: as typed; pages show it, and nothing else depends on it.
-    configuration: the file that set some of this, as named in reports.
+    statistics. common: whether they have the ranges of colours. command: as typed; pages show it, and nothing else
+    depends on it. configuration: the file that set some of this, as named in reports.
     """
 
     passes: tuple[str, ...]
@@ -50,8 +51,14 @@ class BatchSettings(msgspec.Struct, frozen=True, kw_only=True):
     max_bytes: int | None = None
     appearance: Appearance = Appearance()
     long: bool = False
+    common: bool = False
     command: str | None = None
     configuration: Configuration | None = None
+
+    def ranges_digest(self) -> str:
+        """Hash of the settings that the range of a single mesh follows from."""
+        own = dataclasses.replace(self.appearance, ranges=())
+        return msgspec.structs.replace(self, appearance=own).digest()
 
     def digest(self) -> str:
         """Hash by which a later run recognises the same settings; plug-ins count with their versions."""
@@ -87,7 +94,8 @@ class RowStatistics(msgspec.Struct):
 class Row(msgspec.Struct, kw_only=True):
     """One line of the manifest: the result of one mesh. The summary leaves out values that differ from run to run.
 
-    statistics: with --long, the whole and then each region.
+    statistics: with --long, the whole and then each region. ranges: with --range common, the ends of the colours of
+    each column of this mesh alone, and the hash of the options that they follow from.
     """
 
     path: str
@@ -104,6 +112,8 @@ class Row(msgspec.Struct, kw_only=True):
     totals: dict[str, Any] = {}
     checks: dict[str, Any] = {}
     statistics: list[RowStatistics] = []
+    ranges: dict[str, tuple[float, float]] = {}
+    ranges_options: str = ""
 
 
 Engine = Callable[[Sequence[BatchItem], BatchSettings], Iterator[Row]]

@@ -29,6 +29,7 @@ from ..support.words import escape_text
 from .locations import hash_of, is_url, length_of, read_url
 from .model import BatchItem, BatchSettings, Limits, Row, RowStatistics, Written
 from .outcome import explained
+from .ranges import ranges_of
 
 if TYPE_CHECKING:
     from ..mesh.surface import Surface
@@ -45,6 +46,8 @@ def run(item: BatchItem, settings: BatchSettings, limits: Limits) -> tuple[Row, 
     try:
         analysis = _analysed(item, settings)
         row = _row(item, analysis, settings.long)
+        if settings.common:
+            row.ranges = ranges_of(analysis, settings)
         _write(analysis, item, settings)
         row.outputs = _written(item)
     except Exception as error:
@@ -64,6 +67,9 @@ def _analysed(item: BatchItem, settings: BatchSettings) -> Result:
     with _timed(timings, "compute"):
         formats = [format_of(path) for kind, path in item.outputs if not kind]
         tables = [kind for kind, _ in item.outputs if kind]
+        if settings.common:
+            formats += [format_of(f"x.{text}") for text in settings.save if not text.startswith("histogram.")]
+            tables += ["histogram"] * any(text.startswith("histogram.") for text in settings.save)
         besides = needs(formats, tables, settings.appearance, request.chosen)
         analysis = compute(surface, replace(request, besides=besides), Result)
     with _timed(timings, "check"):

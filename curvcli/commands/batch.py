@@ -22,7 +22,7 @@ from .talk import say
 
 if TYPE_CHECKING:
     from ..batch.batch import Batch
-    from ..batch.model import BatchItem, BatchSettings, Engine, Limits
+    from ..batch.model import BatchItem, BatchSettings, Engine, Limits, Row
     from ..batch.series import Plot
 
 
@@ -149,6 +149,8 @@ def run(
         from ..batch.manifest import Manifest
 
         with Manifest(folder, resume=resume, force=force) as manifest:
+            if how.common:
+                how = _with_common_ranges(items, how, engine, manifest.rows, quiet)
             batch = Batch(items, how, folder, manifest, strict)
             todo = batch.todo()
             try:
@@ -160,6 +162,18 @@ def run(
                 if not quiet:
                     _print_summary(batch, len(todo))
     return worst([row.exit_code for row in batch.rows])
+
+
+def _with_common_ranges(
+    items: Sequence[BatchItem], settings: BatchSettings, engine: Engine, known: dict[str, Row], quiet: bool
+) -> BatchSettings:
+    from ..batch.batch import content_hash
+    from ..batch.ranges import with_common_ranges
+    from .progress import phase
+
+    with phase("choosing the common range", quiet):
+        hashes = {item.path: content_hash(item) or "" for item in items if item.path in known}
+        return with_common_ranges(items, settings, engine, known, hashes)
 
 
 def _plots(texts: tuple[str, ...], folder: str, items: Sequence[BatchItem], long: bool) -> list[Plot]:
@@ -191,6 +205,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
     from ..analysis.request import Request
     from ..analysis.statistics import parse_statistics
     from ..batch.model import BatchSettings
+    from ..output.appearance import COMMON
     from ..output.write import check_appearance
     from ..report.phrases import shell_quoted
 
@@ -199,8 +214,16 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
     conventions["stat"] = parse_statistics(conventions["stat"])
     if any(suffix.startswith("regions.") for suffix in save) and conventions["regions"] is None:
         raise UsageError("--save regions: there are none without --regions")
+    common = (conventions["value_range"] or "").strip().lower() == COMMON
+    if common:
+        conventions["value_range"] = None
     appearance = options.appearance(conventions)
     check_appearance(appearance, at_scale, [f".{suffix}" for suffix in save])
+    if common:
+        from ..batch.ranges import shown
+
+        if not shown(save, appearance, at_scale):
+            raise UsageError("--range common: no output of --save has colours; add one, such as --save png")
     requested = {field.name for field in fields(Request)}
     asked = {name: conventions.pop(name) for name in list(conventions) if name in requested}
     return BatchSettings(
@@ -208,6 +231,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
         save=save,
         options={"weld": parse_weld(weld), **asked},
         appearance=appearance,
+        common=common,
         command=shell_quoted(["curvcli", *sys.argv[1:]]),
         configuration=configuration(),
         **conventions,

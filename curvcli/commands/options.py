@@ -236,7 +236,10 @@ drawing = together(
     ),
     click.option("--cmap", metavar="NAME", help="Colour map, such as crameri:vik or viridis."),
     click.option(
-        "--range", "value_range", metavar="LO:HI|pNN", help="Ends of the colour map, or a central percentage."
+        "--range",
+        "value_range",
+        metavar="LO:HI|pNN|common",
+        help="Ends of the colour map, or a central percentage; common: one range over all meshes of a batch.",
     ),
     click.option(
         "--view",
@@ -294,7 +297,7 @@ def appearance(settings: dict[str, Any], precision: str = "shortest") -> Appeara
     picture = PictureOptions(view, up, parse_size(size), background, edges, settings.pop("dpi"))
     histograms = tuple(dict.fromkeys(map(_listed, settings.pop("histograms"))))
     bins, table_columns = settings.pop("bins"), _listed(settings.pop("columns") or "")
-    return Appearance(columns, cmap, value_range, precision, quality, histograms, bins, table_columns, picture)
+    return Appearance(columns, cmap, value_range, precision, quality, histograms, bins, table_columns, (), picture)
 
 
 def chosen(passes: tuple[str, ...], settings: dict[str, Any]) -> tuple[list[str], list[str]]:

@@ -74,7 +74,7 @@ def colored(analysis: Result, name: str, appearance: Appearance) -> Colored:
     if quantity.on == "edge":
         values, theta = (analysis.edges[key].astype(np.float64) for key in (name, "theta"))
         flat = edge_floor(analysis, theta) if quantity.signed else None
-        cmap, value_range = appearance.cmap, appearance.value_range
+        cmap, value_range = appearance.cmap, appearance.range_of(name)
         scale = colorize(values, cmap=cmap, value_range=value_range, signed=quantity.signed, floor=flat)
         return Colored(name, quantity, scale)
     column = sample(analysis, name, areas=False)

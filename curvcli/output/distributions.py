@@ -145,7 +145,7 @@ def common_scale(samples: Sequence[ColumnSample], appearance: Appearance, *, sym
     return colorize(
         values,
         cmap=appearance.cmap,
-        value_range=appearance.value_range,
+        value_range=appearance.range_of(samples[0].name),
         signed=symmetric and (quantity.signed or quantity.vector),
         ignore=_joined([each.apart for each in samples]),
         floor=floors,

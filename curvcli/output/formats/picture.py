@@ -31,8 +31,8 @@ def write_as(suffix: str, stream: BinaryIO, analysis: Result, appearance: Appear
     from ..pictures.picture import write_picture
 
     columns = [colored(analysis, name, appearance) for name in shows(appearance, analysis.chosen)]
-    write_picture(stream, analysis, columns, appearance.picture, appearance.value_range, suffix)
-    return [sentence(column, appearance.value_range, analysis.conventions.unit) for column in columns]
+    write_picture(stream, analysis, columns, appearance.picture, appearance.range_rule, suffix)
+    return [sentence(column, appearance.range_rule, analysis.conventions.unit) for column in columns]
 
 
 for place, suffix in enumerate((".png", ".pdf", ".svg")):

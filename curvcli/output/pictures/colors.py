@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...errors import UsageError
 from ...support.words import suggestion
+from ..appearance import COMMON
 
 DIVERGING, SEQUENTIAL, CATEGORICAL = "crameri:vik", "crameri:batlow", "tol:light"
 CATEGORIES = 9
@@ -196,7 +197,9 @@ def parse_range(value_range: str | None) -> tuple[float | None, float | None, fl
     """Parse `--range`: (low, high, None) for LO:HI, (None, None, percent) for pNN, all None for the default."""
     if value_range is None:
         return None, None, None
-    text = value_range.strip()
+    text = value_range.strip().removeprefix(f"{COMMON}:")
+    if text == COMMON:
+        raise UsageError("--range common: one range over the meshes of a batch; `curvcli batch` computes it")
     problem = f"--range {value_range}: expected LO:HI with LO < HI, as -1:1, or pNN with 0 < NN <= 100, as p95"
     try:
         if re.match("[pP]", text):

@@ -71,7 +71,7 @@ def write_histograms(
         sheet.draw(legends[place], left, top + height - below - 0.2 * font, small)
     sheet.draw(footer, margin, size[1] - len(footer) * LINE * small - 0.5 * margin, small)
     columns = {axis.name: axis for each in axes for axis in each}
-    sentences = [sentence(_colored(axis), appearance.value_range, unit) for axis in columns.values()]
+    sentences = [sentence(_colored(axis), appearance.range_rule, unit) for axis in columns.values()]
     name = meshes[0] if len(meshes) == 1 else f"{len(meshes)} meshes"
     stream.write(sheet.content(f"{name}: histograms", "\n".join(sentences)))
     return sentences
@@ -103,7 +103,7 @@ def _footer(
 
 def _entries(axes: Sequence[Axis], meshes: Sequence[str], number: int, appearance: Appearance) -> list[LegendEntry]:
     """Legend of a panel."""
-    entries = [legend(_colored(axis), appearance.value_range) for axis in axes]
+    entries = [legend(_colored(axis), appearance.range_rule) for axis in axes]
     if len(axes) == 1:
         # Beside lines in the colours of the meshes, labels have no colours.
         return [LegendEntry(entry.text) for entry in entries[0]] if len(meshes) > 1 else entries[0]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ...curvatures.quantity import Quantity
 from ...curvatures.registry import passes
 from ...support.words import counted, format_exponent, typeset_number
+from ..appearance import COMMON
 from .colors import ColorScale, parse_range
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def range_words(value_range: str | None, signed: bool) -> str:
     """Rule that chose the ends of a colour map."""
     low, _, central = parse_range(value_range)
     if low is not None:
-        return "range as asked"
+        return "common to all meshes" if value_range and value_range.startswith(COMMON) else "range as asked"
     if signed:
         return f"p{98 if central is None else central:g} of |values|"
     share = 96 if central is None else central
