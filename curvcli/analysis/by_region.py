@@ -47,6 +47,13 @@ def splits_itself(name: str, settings: EstimatorSettings) -> bool:
     return owner.of_faces is not None and any(np.ndim(value) for value in values)
 
 
+def turns(name: str, settings: EstimatorSettings) -> bool:
+    """True for a measure with a setting that changes sign with the orientation and is not 0 everywhere."""
+    owner = passes.provider(name.partition(AT_SCALE)[0])
+    odd = (settings.values.get(each.key(owner.name), each.default) for each in owner.settings if each.parity == "odd")
+    return any(bool(np.any(value)) for value in odd)
+
+
 def on_faces(settings: EstimatorSettings, mask: Mask) -> EstimatorSettings:
     """The settings of the surface of some faces."""
     values = {name: value[mask] if np.ndim(value) else value for name, value in settings.values.items()}

@@ -214,7 +214,7 @@ class Result:
         area, borders = self.columns["face_area"], self._borders
         parts = Partition(self.surface, self.regions.face, self.regions.count, area, borders)
         split = {name: self._split(name) for name in self._totalled if splits_itself(name, self.settings)}
-        return parts.shares({name: self.columns[name] for name in self._totalled}, split)
+        return parts.shares({name: self.columns[name] for name in self._totalled}, split, self.settings)
 
     def _split(self, name: str) -> tuple[Floats, Floats]:
         """Parts of the faces in a measure that its pass splits, and the sizes of their terms."""

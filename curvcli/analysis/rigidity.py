@@ -39,7 +39,7 @@ def parse_rigidity(text: str) -> Rigidity:
     k_BT stays k_BT, at the temperature that the number was measured at: no temperature is assumed.
     Errors: UsageError for a number that is not positive or an unknown unit.
     """
-    match = _NUMBER.fullmatch(text)
+    match = _NUMBER.fullmatch(text) if isinstance(text, str) else None
     unit = None if match is None else UNITS.get(re.sub(r"[\s_]", "", match[2]).lower())
     size = math.nan if match is None else float(match[1])
     if unit is None or not _LEAST <= size <= 1 / _LEAST:

@@ -20,6 +20,7 @@ from ..curvatures.quantity import AT_SCALE, Quantity
 from ..curvatures.registry import passes
 from ..mesh.borders import vertex_regions
 from ..mesh.groups import Segments
+from ..mesh.scale import DEFAULTS, EstimatorSettings
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON
 from ..support.arrays import Floats, Index, Mask
@@ -62,14 +63,17 @@ class Partition:
         self._face = np.where(face < 0, np.int32(count), face).astype(np.int32)
 
     def shares(
-        self, columns: Mapping[str, Any], of_faces: Mapping[str, tuple[Floats, Floats]] | None = None
+        self,
+        columns: Mapping[str, Any],
+        of_faces: Mapping[str, tuple[Floats, Floats]] | None = None,
+        settings: EstimatorSettings = DEFAULTS,
     ) -> list[Share]:
         """Shares of every total that the given columns provide, in the order of the report.
 
         of_faces: (F,) parts of the faces, and sizes of their terms, for measures that a pass splits itself.
         """
-        own = of_faces or {}
-        return [self._share(quantity, columns[quantity.name], own.get(quantity.name)) for quantity in summed(columns)]
+        own, quantities = of_faces or {}, summed(columns, settings)
+        return [self._share(quantity, columns[quantity.name], own.get(quantity.name)) for quantity in quantities]
 
     def _share(self, quantity: Quantity, column: Any, own: tuple[Floats, Floats] | None) -> Share:
         if own is not None:
@@ -79,9 +83,7 @@ class Partition:
         values, total, bound = (np.stack(part, axis=-1) for part in zip(*each, strict=True))
         if not quantity.vector:
             values, total, bound = (part[..., 0] for part in (values, total, bound))
-        # As the total of the whole: null without an orientation, or without any estimate.
-        scaled = passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0])
-        if (quantity.parity == "odd" and not self.surface.orientable) or (scaled and np.isnan(scalars[0]).all()):
+        if self._is_null(quantity, scalars[0]):
             values, total = np.full_like(values, np.nan), np.full_like(total, np.nan)
         exponents = quantity.length_exponent, quantity.mean_degree
         return Share(str(quantity.total), *exponents, values, total, bound, quantity.energy)
@@ -92,10 +94,16 @@ class Partition:
         values, total = self._faces.sum(parts), Segments(None, 1, len(column)).sum(column)[0]
         stars = 2 * (int(self.surface.degree.max()) + 3) * EPSILON * float(sizes.sum())
         bound = float(rounding(self.surface, Segments(None, 1, len(sizes)).sum(sizes))[0]) + stars
-        if passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0]) and np.isnan(column).all():
-            values, total = np.full_like(values, np.nan), np.nan  # no estimate anywhere is no energy of 0
+        if self._is_null(quantity, column):
+            values, total = np.full_like(values, np.nan), np.nan
         exponents = quantity.length_exponent, quantity.mean_degree
         return Share(str(quantity.total), *exponents, values, np.asarray(total), np.asarray(bound), quantity.energy)
+
+    def _is_null(self, quantity: Quantity, column: Floats) -> bool:
+        """True where the total of the whole is null: without an orientation, or without any estimate."""
+        scaled = passes.depends_on_scale(quantity.name.partition(AT_SCALE)[0])
+        unoriented = quantity.parity == "odd" and not self.surface.orientable
+        return unoriented or (scaled and bool(np.isnan(column).all()))
 
     def _sum(self, on: str, values: Floats) -> tuple[Floats, float, float]:
         """Shares, total and bound of one scalar measure."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from ..mesh.groups import Groups, Segments
 from ..mesh.scale import DEFAULTS, EstimatorSettings
 from ..mesh.surface import Surface
 from ..support.arrays import Floats
+from .by_region import turns
 
 
 def totals(
@@ -34,7 +36,7 @@ def totals(
     """
     totals_by_key: dict[str, Floats] = {}
     known: dict[str, Floats] = {}
-    for key, total, length_exponent, mean_degree, energy in _computed(surface, groups, columns):
+    for key, total, length_exponent, mean_degree, energy in _computed(surface, groups, columns, settings):
         known[key] = total
         shown = surface.in_file_unit(total, length_exponent)
         shown = shown * 0.5**mean_degree if mean == "average" else shown
@@ -64,11 +66,11 @@ def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
 
 
 def _computed(
-    surface: Surface, groups: Groups, columns: Mapping[str, Any]
+    surface: Surface, groups: Groups, columns: Mapping[str, Any], settings: EstimatorSettings = DEFAULTS
 ) -> Iterator[tuple[str, Floats, int, int, bool]]:
     """Key, values in the unit of computation, length exponent, degree in H and kind (energy or not) of every total."""
     orientable = count_groups(surface, groups).orientable
-    for quantity in summed(columns):
+    for quantity in summed(columns, settings):
         total = _sum(groups.of(surface, quantity.on), quantity, columns[quantity.name])
         if quantity.parity == "odd":
             total = np.where(orientable if total.ndim == 1 else orientable[:, None], total, np.nan)
@@ -80,12 +82,16 @@ def _computed(
             yield "volume", volumes(surface, groups), 3, 0, False
 
 
-def summed(names: Collection[str]) -> list[Quantity]:
-    """Named quantities that have a total, in the order of the report; of several scales, each its own."""
+def summed(names: Collection[str], settings: EstimatorSettings = DEFAULTS) -> list[Quantity]:
+    """Named quantities that have a total, in the order of the report; of several scales, each its own.
+
+    A quantity is odd here if one of its settings changes sign with the orientation and is not 0.
+    """
     at: dict[str, list[str]] = {}
     for name in names:
         at.setdefault(name.partition(AT_SCALE)[0], []).append(name)
-    return [passes.quantity(name) for quantity in passes.totals() for name in at.get(quantity.name, ())]
+    named = [passes.quantity(name) for quantity in passes.totals() for name in at.get(quantity.name, ())]
+    return [replace(quantity, parity="odd") if turns(quantity.name, settings) else quantity for quantity in named]
 
 
 def columns_for(derived: Iterable[DerivedTotal]) -> list[str]:

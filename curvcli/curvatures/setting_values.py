@@ -82,7 +82,10 @@ def _entries(given: GivenSettings) -> Iterable[tuple[str, Any]]:
             else:
                 yield str(name), value
         return
-    for text in [given] if isinstance(given, str) else given:
+    texts = [given] if isinstance(given, str) else list(given) if isinstance(given, Iterable) else [given]
+    for text in texts:
+        if not isinstance(text, str):
+            raise UsageError(f"settings {given!r}: expected a mapping from PASS.NAME to a value, or texts")
         name, equals, value = text.partition("=")
         if not equals:
             raise UsageError(f"--set {text}: expected PASS.NAME=VALUE, such as helfrich.c0=0.5")

@@ -84,6 +84,8 @@ def test_what_a_parameter_is_used_for_is_said_and_nothing_else() -> None:
         ("helfrich.c0=a=b", r"helfrich\.c0 of region 'a' is 'b', expected a finite number"),
         (["helfrich.c0=1", "helfrich.c0=1"], r"helfrich\.c0 is set twice"),
         (["helfrich.c0=a=1", "helfrich.c0=a=1"], r"helfrich\.c0 of region 'a' is set twice"),
+        (5, r"settings 5: expected a mapping from PASS\.NAME"),
+        ([("helfrich.c0", 1)], r"expected a mapping from PASS\.NAME to a value, or texts"),
         ({"helfrich.c0": True}, r"helfrich\.c0 is True, expected a finite number"),
         ({"helfrich.c0": [1.0]}, r"helfrich\.c0 is \[1\.0\], expected a finite number"),
         ({"helfrich": {"c1": 1}}, r"no parameter 'c1'; known: c0"),

@@ -299,6 +299,18 @@ def test_with_one_it_is_null_where_the_sign_is(kind: str) -> None:
     np.testing.assert_allclose(curvcli.passes["helfrich"](surface, c0=VALUE), (h - VALUE) ** 2 * area / 2, rtol=1e-14)
 
 
+@pytest.mark.parametrize("kind", ["mobius", "klein_bottle"])
+def test_a_total_without_orientation_is_null_not_zero(kind: str) -> None:
+    surface = meshes.zoo(kind).surface()
+    label = np.arange(surface.n_faces) % 2
+    for c0 in (VALUE, {"1": VALUE}):
+        analysis = curvcli.analyze(surface, "helfrich", regions=label, spontaneous_curvature=c0)
+        assert analysis.totals["helfrich"] is None
+        assert {region["shares"]["helfrich"] for region in analysis.report()["regions"]} == {None}
+    plain = curvcli.analyze(surface, "helfrich,willmore").totals
+    assert plain["helfrich"] == pytest.approx(plain["willmore"] / 2, rel=1e-14)
+
+
 def test_derived_totals_change_as_declared() -> None:
     """Scaled by 3 and reversed, with settings that change as they declare."""
     mesh = red_cell(642)
