@@ -124,13 +124,14 @@ def _points(points: Any) -> NDArray[Any]:
 
 
 def _mesh_file(points: NDArray[Any], faces: Any, of_points: Any, of_cells: Any) -> MeshFile:
+    from .registry import ParserOptions
     from .vtk.attributes import Attribute, ignored
     from .vtk.dataset import DataSet, VtkPiece, mesh_file
 
     notices: list[Notice] = []
 
     def attributes(data: Mapping[str, Any], count: int) -> Iterable[Attribute]:
-        normals = getattr(data, "active_normals_name", None)
+        roles = {getattr(data, f"active_{key}_name", None): key for key in ("normals", "texture_coordinates")}
         for name, given in data.items():
             values = np.asarray(given)
             if values.ndim == 0 or len(values) != count:
@@ -139,12 +140,12 @@ def _mesh_file(points: NDArray[Any], faces: Any, of_points: Any, of_cells: Any) 
                 yield Attribute(name, [str(value) for value in values.reshape(count, -1)[:, 0]] if values.size else [])
             elif values.dtype.kind in "fiub":
                 flat = values if values.ndim == 1 else values.reshape(count, -1)
-                yield Attribute(name, flat.copy(), "normals" if name == normals else "")
+                yield Attribute(name, flat.copy(), roles.get(name, "").removesuffix("_coordinates"))
             else:
                 notices.extend(ignored([name], f"of type {values.dtype}", "numbers or words are kept"))
 
     piece = VtkPiece(points, faces, list(attributes(of_points, len(points))), list(attributes(of_cells, faces.cells)))
-    return mesh_file(DataSet([piece], notices=notices), "arrays", normals=True)
+    return mesh_file(DataSet([piece], notices=notices), "arrays", ParserOptions(normals=True, texture=True))
 
 
 _Convert = Callable[[Any], MeshFile | None]

@@ -14,20 +14,7 @@ from curvcli.errors import InputError, UsageError
 from curvcli.mesh.surface import Surface
 from tests.helpers.every_format import SHAPES, Shape, assert_same, moebius, sphere
 from tests.helpers.vtk_files import WORDS, data_set
-
-
-def of_meshio(shape: Shape) -> meshio.Mesh:
-    """A block per run of polygons of one size, and a line, which is no face."""
-    blocks: list[tuple[str, list[Any]]] = []
-    for polygon in shape.polygons:
-        kind = "triangle" if len(polygon) == 3 else "quad"
-        if not blocks or blocks[-1][0] != kind:
-            blocks.append((kind, []))
-        blocks[-1][1].append(polygon)
-    ends = np.cumsum([len(rows) for _, rows in blocks])
-    part = [*np.split(shape.part, ends[:-1]), np.array([9])]
-    cells = [*((kind, np.array(rows)) for kind, rows in blocks), ("line", np.array([[0, 1]]))]
-    return meshio.Mesh(shape.points, cells, point_data={"value": shape.value}, cell_data={"part": part})
+from tests.loading.vtk_arrays import of_meshio
 
 
 class Triangles:

@@ -11,7 +11,7 @@ import pytest
 from curvcli.loading.read import read_mesh_file
 from tests.helpers.every_format import SHAPES, assert_reads, assert_refused, is_refused
 from tests.helpers.vtk_files import LEGACY, data_set, write_legacy
-from tests.loading.vtk_arrays import assert_arrays
+from tests.loading.vtk_arrays import assert_arrays, of_meshio
 
 HEAD = b"# vtk DataFile Version 3.0\nby hand\nASCII\nDATASET POLYDATA\n"
 BODY = b"POINTS 4 float\n0 0 0 1 0 0\n1 1 0 0 1 0.5\n"
@@ -27,6 +27,42 @@ def test_every_dialect_is_read_to_the_last_digit(dialect: str, kind: str, tmp_pa
                 shape = shape.short()  # VTK writes few digits
             path = write_legacy(data_set(shape, kind, single=single), dialect, tmp_path / f"{name}.vtk")
             assert_arrays(assert_reads(path, shape, table="51" in dialect and not single), shape)
+
+
+@pytest.mark.parametrize("form", ["vtk42", "vtk51"])
+@pytest.mark.parametrize("binary", [True, False])
+def test_what_meshio_writes_is_read_to_the_last_digit(form: str, binary: bool, tmp_path: Path) -> None:
+    for make in SHAPES.values():
+        shape = make()
+        of_meshio(shape).write(tmp_path / "a.vtk", file_format=form, binary=binary)
+        file = assert_reads(tmp_path / "a.vtk", shape, table=False)
+        np.testing.assert_array_equal(file.vertex_properties["value"], shape.value)
+        np.testing.assert_array_equal(file.polygon_properties["part"], shape.part)
+
+
+def test_the_files_that_pyvista_ships() -> None:
+    """Surfaces with the counts of VTK; volumes and grids are refused."""
+    pyvista = pytest.importorskip("pyvista")
+    from pyvista import examples
+
+    shipped = sorted(Path(examples.__file__).parent.glob("*.vtk"))
+    assert shipped
+    for path in shipped:
+        mesh = pyvista.read(path)
+        if isinstance(mesh, pyvista.PolyData):
+            file = read_mesh_file(path, texture=True)
+            assert (file.xyz.shape[1], file.polygons) == (mesh.n_points, mesh.n_cells)
+            np.testing.assert_array_equal(file.xyz.T, mesh.points)
+            np.testing.assert_array_equal(file.corners.reshape(-1, 3), mesh.regular_faces)
+        else:
+            assert_refused(path.read_bytes(), "no faces, but|DATASET")
+
+
+def test_texture_coordinates_are_those_of_the_corners() -> None:
+    values = b"POINT_DATA 4\nTEXTURE_COORDINATES t 2 float\n0 0 1 0 1 1 0 1\n"
+    file = read_mesh_file(io.BytesIO(HEAD + BODY + b"POLYGONS 1 5\n4 0 1 2 3\n" + values), texture=True)
+    assert file.corner_texture is not None
+    assert file.corner_texture.tolist() == [[0, 1, 1, 0], [0, 0, 1, 1]]
 
 
 def test_strips_lines_and_values_of_cells_keep_their_order() -> None:

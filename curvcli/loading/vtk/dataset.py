@@ -13,6 +13,7 @@ from ...errors import InputError, Notice
 from ...mesh.file import NO_POLYLINES, Labels, MeshFile, Polylines
 from ...support.words import pluralize
 from ..limits import check_faces
+from ..registry import ParserOptions
 from .attributes import Attribute, joined_attributes, labels, properties
 from .cells import STRAIGHT, CellFaces, joined
 from .kinds import count_of
@@ -38,16 +39,16 @@ class DataSet:
     notices: list[Notice] = field(default_factory=list)
 
 
-def mesh_file(data: DataSet, format: str, max_faces: int | None = None, normals: bool = False) -> MeshFile:
+def mesh_file(data: DataSet, format: str, options: ParserOptions) -> MeshFile:
     """The content of a mesh file with these pieces.
 
     Cells that are neither faces nor lines are counted in a notice. Arrays of numbers become properties, those of words,
-    or of codes with known names, labels. normals: keep the array of normals as those of the file.
+    or of codes with known names, labels. On request, normals and texture coordinates are those of the file.
     Errors: InputError without a face or line.
     """
     notices, points = data.notices, [piece.points for piece in data.pieces]
     faces = joined([piece.faces for piece in data.pieces], [len(piece) for piece in points])
-    check_faces(len(faces.sizes), max_faces)
+    check_faces(len(faces.sizes), options.max_faces)
     others = ", ".join(count_of(number, name) for name, number in faces.others.items())
     if not len(faces.sizes) and not faces.lines.count:
         hint = STRAIGHT if others else "a surface needs at least one triangle or polygon"
@@ -62,6 +63,7 @@ def mesh_file(data: DataSet, format: str, max_faces: int | None = None, normals:
     corners, sizes, cell = _without_short(faces, notices)
     named = labels(of_cells, data.meanings.cells)
     columns = properties([attribute for attribute in of_cells if attribute.name not in named])
+    uv = _with_role(of_points, "texture", 2) if options.texture else None
     xyz = np.empty((3, sum(len(piece) for piece in points)))
     for axis in range(3):
         np.concatenate([piece[:, axis] for piece in points], out=xyz[axis], casting="unsafe")
@@ -77,7 +79,8 @@ def mesh_file(data: DataSet, format: str, max_faces: int | None = None, normals:
         },
         vertex_labels=at_points,
         polylines=_polylines(faces),
-        corner_normals=_normals(of_points) if normals else None,
+        corner_normals=_with_role(of_points, "normals", 3) if options.normals else None,
+        corner_texture=uv if uv is None else np.ascontiguousarray(uv[:, corners]),
         unit=data.meanings.unit,
         notices=tuple(notices),
     )
@@ -104,8 +107,9 @@ def _polylines(faces: CellFaces) -> Polylines:
     return Polylines(faces.lines.corners.astype(np.int32, copy=False), start)
 
 
-def _normals(attributes: Sequence[Attribute]) -> NDArray[np.float64] | None:
+def _with_role(attributes: Sequence[Attribute], role: str, width: int) -> NDArray[np.float64] | None:
+    """(width, V) the values of the array with a role."""
     for attribute in attributes:
-        if attribute.role == "normals" and attribute.layout == 3:
-            return np.ascontiguousarray(np.asarray(attribute.values).T, np.float64)
+        if attribute.role == role and attribute.layout >= width:
+            return np.ascontiguousarray(np.asarray(attribute.values)[:, :width].T, np.float64)
     return None

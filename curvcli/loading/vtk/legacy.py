@@ -98,7 +98,7 @@ class _Legacy:
             if self.counts.get(section, expected) != expected:
                 raise InputError(f"{self.counts[section]} announced, {expected} expected", place=section)
         piece = VtkPiece(self.points, faces, _distinct(self.arrays["POINT_DATA"]), _distinct(self.arrays["CELL_DATA"]))
-        return mesh_file(DataSet([piece], notices=self.notices), "vtk", options.max_faces, options.normals)
+        return mesh_file(DataSet([piece], notices=self.notices), "vtk", options)
 
     def _geometry(self, keyword: str, words: list[str]) -> None:
         cursor = self.cursor

@@ -47,11 +47,12 @@ def parse_xml(pieces: Pieces, options: ParserOptions, format: str) -> MeshFile:
         raise InputError(f"no element {kind} found", hint="the file was cut off")
     given = list(body.all("Piece"))
     read = [_piece(piece, k if len(given) > 1 else None, decoder, format) for k, piece in enumerate(given)]
+    read = [piece for piece in read if len(piece.points) or piece.faces.cells] or read[:1]
     if not read:
         raise InputError("no faces: no element Piece found")
     meanings = Meanings.of_comments(document.comments)
     meanings.unit = _unit([*root.all("FieldData"), *body.all("FieldData")], decoder) or meanings.unit
-    return mesh_file(DataSet(read, meanings), format, options.max_faces, options.normals)
+    return mesh_file(DataSet(read, meanings), format, options)
 
 
 def _way_out(kind: str) -> str:

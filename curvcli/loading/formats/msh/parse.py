@@ -111,7 +111,7 @@ def _mesh_file(content: MshContent, options: ParserOptions) -> MeshFile:
     values = [Attribute("groups", labels)] if labels else []
     values.append(Attribute("entity", elements.entities))
     piece = VtkPiece(content.points, faces, (), values)
-    return mesh_file(DataSet([piece], notices=content.notices), "msh", options.max_faces)
+    return mesh_file(DataSet([piece], notices=content.notices), "msh", options)
 
 
 def _rows(tags: NDArray[np.int64], nodes: NDArray[np.int64]) -> NDArray[np.int64]:
