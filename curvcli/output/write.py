@@ -240,10 +240,10 @@ def _write_mesh(stream: BinaryIO, analysis: Result, format: MeshFormat, appearan
     ours: dict[str, Any] = vertex_properties(analysis) if full else {}
     if format.quality and appearance.quality and painted is not None:
         ours["quality"] = ours[painted[0]]
-    inputs: dict[str, Any] = dict(file.vertex_properties) if file is not None and full else {}
+    inputs: dict[str, Any] = file.vertex_labels | file.vertex_properties if file is not None and full else {}
     per_face: dict[str, Any] = dict(file.polygon_properties) if file is not None else {}
     if file is not None and format.labels:
-        inputs, per_face = file.vertex_labels | inputs, file.polygon_labels | per_face
+        per_face = file.polygon_labels | per_face
     properties, notices = beside_input(ours, inputs, colored=painted is not None)
     polygons = None
     if file is not None and file.sizes is not None:

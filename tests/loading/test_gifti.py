@@ -194,3 +194,24 @@ def test_the_command_line(tmp_path: Path) -> None:
     (tmp_path / "rubbish.gii").write_bytes(HOSTILE["laughs"][0])
     ended = curvcli("analyze", str(tmp_path / "rubbish.gii"))
     assert (ended.code, len(ended.err.splitlines())) == (3, 1)
+
+
+def test_labels_of_a_table_with_gaps_are_kept_in_outputs(tmp_path: Path) -> None:
+    table = (
+        '<Label Key="1" Red="1">no green</Label><Label Key="2"/><Label Key="3" Red="0" Green="0" Blue="1">blue</Label>'
+    )
+    data = gifti(
+        data_array(POINTS, "POINTSET"),
+        data_array(TRIANGLES, "TRIANGLE"),
+        data_array(np.array([1, 2, 3, 3], "i4"), "LABEL"),
+        table=table,
+    )
+    (tmp_path / "lh.gii").write_bytes(data)
+    labels = read_mesh_file(tmp_path / "lh.gii").vertex_labels["label"]
+    assert labels.names == ("no green", "2", "blue")
+    assert labels.colors is not None
+    assert labels.colors.tolist() == [[128, 128, 128], [128, 128, 128], [0, 0, 255]]
+    ended = curvcli("analyze", tmp_path / "lh.gii", "-q", "-o", tmp_path / "lh.ply")
+    assert ended.code == 0, ended.err
+    assert read_mesh_file(tmp_path / "lh.ply").vertex_properties["label"].tolist() == [0, 1, 2, 2]
+    assert b"comment label: 0 no green, 1 2, 2 blue" in (tmp_path / "lh.ply").read_bytes()

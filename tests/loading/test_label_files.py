@@ -50,7 +50,7 @@ def by_vertex(order: Any, words: bool = True, separator: str = ",") -> str:
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".tsv", ".txt", ".CSV"])
-@pytest.mark.parametrize("separator", [",", "\t", ";"])
+@pytest.mark.parametrize("separator", [",", "\t", ";", " "])
 def test_tables_by_vertex(suffix: str, separator: str, tmp_path: Path) -> None:
     path = tmp_path / f"labels{suffix}"
     for order in (range(V), np.random.default_rng(3).permutation(V).tolist()):
@@ -101,6 +101,7 @@ REFUSED = {
     "mixed.csv": ("vertex,label\n0,1\n1,insula\n", "row 3: 'insula', expected one whole number as elsewhere"),
     "mixed.txt": ("1\ninsula\n2\n", "line 2: 'insula', expected one whole number"),
     "half.csv": ("vertex,label\n0,1.5\n", "label 1.5 of vertex 0"),
+    "pairs.txt": ("0 1\n1 1\n", "2 numbers in a line found, one label expected"),
     "few.txt": ("a\nb\nc\n", "3 labels, expected 80 (faces) or 42 (vertices)"),
     "header.txt": ("vertex\n" + "1\n" * 80, "80 labels, expected 42 (vertices)"),
     "quote.csv": ('vertex,label\n0,"' + "x" * 200_000, "field larger than field limit"),

@@ -88,7 +88,9 @@ def _table(file: _BigEndian) -> dict[int, str]:
             file.one()
         name = file.text()
         red, green, blue, _transparency = (int(part) for part in file.take(_ENTRY - 1))
-        entries.setdefault(red + 256 * green + 65536 * blue, name)
+        entries.setdefault(
+            red + 256 * green + 65536 * blue, name or f"#{red & 255:02x}{green & 255:02x}{blue & 255:02x}"
+        )
     return entries
 
 

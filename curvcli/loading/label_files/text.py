@@ -42,6 +42,8 @@ def read_text(data: bytes) -> LabelFile:
     text = data.decode("utf-8-sig")
     first = next(filter(None, map(str.strip, io.StringIO(text, newline=None))), "")
     separator = next((one for one in "\t,;" if one in first), None)
+    if separator is None and first and first.split()[0].lower() in _INDEX and " " in first:
+        return _table([line.split() for line in io.StringIO(text, newline=None) if line.strip()])
     if separator is None:
         numbers = _numbers(text)
         return _words(text) if numbers is None else numbers
@@ -84,6 +86,12 @@ def _words(text: str) -> LabelFile:
     """Lines of words: all of them labels, or all but the first; quotes of CSV are removed."""
     lines = [line.strip() for line in io.StringIO(text, newline=None)]
     _refuse_mixed(lines, 1, "line")
+    row = next((line.split() for line in lines if line), [])
+    if len(row) > 1 and all(map(_is_number, row)):
+        raise InputError(
+            f"{len(row)} numbers in a line found, one label expected",
+            hint="a first line `vertex label` makes it a table",
+        )
     words = [line[1:-1].replace('""', '"') if line[:1] == line[-1:] == '"' else line for line in lines if line]
     return LabelFile(coded(words), _element(words[0]), header=True)
 

@@ -86,8 +86,10 @@ def read_image(data: bytes, max_faces: int | None = None) -> Image:
         raise InputError("no element GIFTI found")
     arrays = tuple(parser.array(number, array) for number, array in enumerate(parser.img.darrays))
     table = {label.key: label for label in parser.img.labeltable.labels}
-    colors = {key: (label.red, label.green, label.blue) for key, label in table.items() if label.red is not None}
-    return Image(arrays, {key: label.label for key, label in table.items()}, colors)
+    parts = {key: (label.red, label.green, label.blue) for key, label in table.items()}
+    colors = {key: color for key, color in parts.items() if None not in color}
+    # The attribute is missing for an element without text.
+    return Image(arrays, {key: escape_text(getattr(label, "label", "")) for key, label in table.items()}, colors)
 
 
 class _Parser(GiftiImageParser):  # type: ignore[misc]
