@@ -13,7 +13,7 @@ from .._version import __version__
 from ..errors import CurvcliError, MissingExtraError, UsageError
 from .model import BatchItem, BatchSettings, Engine, Limits, Row
 from .outcome import lost
-from .processes import ONE_THREAD, Worker
+from .processes import ONE_THREAD, WorkerProcess
 
 # Seconds to wait for a scheduler, and then for its first worker.
 _WAIT = 15.0
@@ -130,6 +130,6 @@ def in_worker(item: BatchItem, settings: BatchSettings, limits: Limits) -> Row:
     if getattr(_mine, "limits", None) != limits:
         if hasattr(_mine, "worker"):
             _mine.worker.end()
-        _mine.worker, _mine.limits = Worker(limits), limits
+        _mine.worker, _mine.limits = WorkerProcess(limits), limits
     row: Row = _mine.worker.run(item, settings)
     return row

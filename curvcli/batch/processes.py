@@ -22,7 +22,7 @@ ONE_THREAD = {f"{pool}_THREADS": "1" for pool in _POOLS}
 _STARTS = 3
 
 
-class Worker:
+class WorkerProcess:
     """Process that runs one mesh after the other; it is replaced when it dies or is stopped by the timeout."""
 
     def __init__(self, limits: Limits):
@@ -126,13 +126,13 @@ def here(limits: Limits, jobs: int, soon: int = 0) -> Iterator[Engine]:
 
     soon: number of meshes that are certain: their workers start at once.
     """
-    workers: list[Worker] = []
-    idle: SimpleQueue[Worker] = SimpleQueue()
+    workers: list[WorkerProcess] = []
+    idle: SimpleQueue[WorkerProcess] = SimpleQueue()
     pool = ThreadPoolExecutor(jobs, "curvcli-batch")
 
     def hire(meshes: int) -> None:
         for _ in range(min(jobs, meshes) - len(workers)):
-            workers.append(Worker(limits))
+            workers.append(WorkerProcess(limits))
             idle.put(workers[-1])
 
     def engine(items: Sequence[BatchItem], settings: BatchSettings) -> Iterator[Row]:
