@@ -9,7 +9,7 @@ import math
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -125,33 +125,31 @@ def first_line(old: str, new: str, file: str) -> tuple[str, str]:
     return f"{len(before)} lines", f"{len(after)} lines"
 
 
-@dataclass
-class _Column:
-    rows: int = 0
-    largest: float = 0.0
-    words: list[str] = field(default_factory=list)
-
-
 def _columns(old: str, new: str, separator: str) -> tuple[str, str] | None:
-    """Names of the columns that differ, with the number of rows and the largest difference over the largest value."""
+    """Columns of one side, and columns that differ: rows, and the largest difference over the largest value."""
     tables = [list(csv.DictReader(io.StringIO(text), delimiter=separator)) for text in (old, new)]
     if len(tables[0]) != len(tables[1]) or not tables[0]:
         return None
-    names = [list(table[0]) for table in tables]
-    if names[0] != names[1]:
-        lost, gained = (sorted(set(a) - set(b)) for a, b in (names, names[::-1]))
-        return f"columns lost: {', '.join(lost)}", f"columns new: {', '.join(gained)}" if gained else "other order"
-    found = []
-    for name in names[0]:
-        pairs = [(one[name], other[name]) for one, other in zip(*tables, strict=True)]
-        unequal = [pair for pair in pairs if pair[0] != pair[1]]
-        if unequal:
-            size = max((abs(x) for one, _ in pairs if (x := _number(one)) is not None), default=0.0) or 1.0
-            gaps = [(_number(one), _number(other)) for one, other in unequal]
-            words = next((pair for pair, gap in zip(unequal, gaps, strict=True) if None in gap), None)
-            largest = max((abs(a - b) for a, b in gaps if a is not None and b is not None), default=math.nan) / size
-            found.append(f"{name}: {len(unequal)} rows, {largest:.1e}" + (f", {words}" if words else ""))
-    return "; ".join(found)[:400], ""
+    before, after = (list(table[0]) for table in tables)
+    lost, gained = sorted(set(before) - set(after)), sorted(set(after) - set(before))
+    found = [_column(name, [(row[name], other[name]) for row, other in zip(*tables, strict=True)]) for name in before
+             if name in after]  # fmt: skip
+    changed = "; ".join(filter(None, found))[:400]
+    if lost or gained:
+        return f"columns lost: {', '.join(lost) or 'none'}; {changed}", f"columns new: {', '.join(gained) or 'none'}"
+    return changed or "the same values", "" if before == after else "columns in another order"
+
+
+def _column(name: str, pairs: list[tuple[str, str]]) -> str:
+    """Difference of one column; empty without one."""
+    unequal = [pair for pair in pairs if pair[0] != pair[1]]
+    if not unequal:
+        return ""
+    size = max((abs(x) for value, _ in pairs if (x := _number(value)) is not None), default=0.0) or 1.0
+    gaps = [(_number(value), _number(other)) for value, other in unequal]
+    words = next((pair for pair, gap in zip(unequal, gaps, strict=True) if None in gap), None)
+    largest = max((abs(a - b) for a, b in gaps if a is not None and b is not None), default=math.nan) / size
+    return f"{name}: {len(unequal)} rows, {largest:.1e}" + (f", {words}" if words else "")
 
 
 def _number(text: str) -> float | None:

@@ -43,8 +43,8 @@ def test_a_table_names_its_columns(tmp_path: Path) -> None:
 
 
 def test_a_lost_column_is_named(tmp_path: Path) -> None:
-    (found,) = compared(tmp_path, "v,K\n0,4\n", "v,h\n0,4\n", "k.csv")
-    assert (found.old, found.new) == ("columns lost: K", "columns new: h")
+    (found,) = compared(tmp_path, "v,K\n1,4\n", "v,h\n2,4\n", "k.csv")
+    assert (found.old, found.new) == ("columns lost: K; v: 1 rows, 1.0e+00", "columns new: h")
 
 
 def test_a_file_of_one_side(tmp_path: Path) -> None:
