@@ -89,9 +89,10 @@ def analyze(
     `estimates` if `rings` or `radius` is given. area: the cell of `K_density`. mean: the convention for H, κ₁ + κ₂
     (`sum`) or half of it (`average`). orient: `file`, or `outward` to turn closed patches that are inside out; None
     keeps the choice of a Surface and is `file` otherwise. weld: the rule for merging vertices of a file, see
-    `curvcli.load`. unit: a label for lengths. regions: a label per face (negative: none), or the name of the file,
-    record or property that holds the labels. checks: names of the identities to test; None tests those whose quantities
-    the passes provide. rings, radius: the scale of estimates, in rings of edges or as a radius (a length, or mean edge
+    `curvcli.load`. unit: a label for lengths. regions: a label per face or vertex (negative: none), or the name of
+    the file, record or property that holds the labels. checks: names of the identities to test; None tests those
+    whose quantities the passes provide. rings, radius: the scale of estimates, in rings of edges or as a radius (a
+    length, or mean edge
     lengths such as `3e`); several (`2e,4e`, or a list) give one column each. normals: the normals of the corrected
     curvatures, those of the mesh or of the file. noise: the standard deviation of each coordinate, for `K_sigma` and
     `h_sigma`; None is the precision of the coordinates. stat: the statistics of every column for each region and

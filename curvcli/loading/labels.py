@@ -21,6 +21,7 @@ from ..mesh.groups import Groups, by_label
 from ..mesh.surface import CutFrom, Surface
 from ..support.arrays import Index, Mask
 from ..support.words import suggestion
+from .copies import distinct
 from .face_labels import face_labels
 from .label_files.base import LabelFile
 from .label_files.read import is_label_file, read_labels
@@ -144,7 +145,7 @@ def region_notices(cut: Surface, groups: Groups, regions: Regions) -> list[Notic
 
 
 def _regions(surface: Surface, given: LabelFile, source: str) -> Regions:
-    """The regions of labels: those names that a face has."""
+    """The regions of labels: those names that a face has; of equal names, all but the first get their number."""
     labels, whole, notices = face_labels(surface, given, source)
     named, of_faces = (np.bincount(each.codes + 1, minlength=len(labels.names) + 1)[1:] > 0 for each in (whole, labels))
     used = np.flatnonzero(of_faces)
@@ -153,6 +154,7 @@ def _regions(surface: Surface, given: LabelFile, source: str) -> Regions:
     new = np.full(len(labels.names) + 1, -1, np.int32)
     new[used] = np.arange(len(used))
     unused = np.flatnonzero(named & ~of_faces)
-    names, others = (tuple(labels.names[code] for code in some.tolist()) for some in (used, unused))
+    every = distinct(list(labels.names))
+    names, others = (tuple(every[code] for code in some.tolist()) for some in (used, unused))
     colors = None if labels.colors is None else labels.colors[used]
     return Regions(new[labels.codes], names, others, colors, tuple(notices))

@@ -266,3 +266,9 @@ def test_an_annotation_of_another_surface_is_refused(tmp_path: Path) -> None:
     path.write_bytes(data[:4] + integers(7) + data[8:])
     with pytest.raises(InputError, match="no label of vertex 0, or two, found"):
         faces_of(path)
+
+
+def test_equal_names_of_two_colours_are_two_regions(tmp_path: Path) -> None:
+    path = tmp_path / "lh.aparc.annot"
+    path.write_bytes(annotation().replace(b"\0\0\0\x07cuneus\0", b"\0\0\0\x07insula\0"))
+    assert list(faces_of(path)) == ["unknown", "insula", "insula #2"]

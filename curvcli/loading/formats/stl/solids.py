@@ -33,5 +33,7 @@ def label_solids(begins: list[int], names: list[bytes], facets: int) -> Labels:
     named = [
         name if name and counted[name] == 1 else f"{name or 'solid'} {number}" for number, name in enumerate(given, 1)
     ]
+    if len(begins) == 1:
+        return Labels(np.zeros(facets, np.int32), tuple(named))
     codes = np.searchsorted(np.array(begins, np.int64), np.arange(facets), side="right") - 1
     return Labels(codes.astype(np.int32), tuple(named))
