@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import base64
+import io
 import os
 import random
 import struct
+import sys
 import tracemalloc
 import zlib
 from pathlib import Path
 
 import pytest
 
+from curvcli.errors import MissingExtraError
 from curvcli.loading.read import read_mesh_file
 from tests.helpers.cli.program import curvcli
 from tests.helpers.every_format import assert_reads, assert_refused, is_refused, moebius, read_cuts
@@ -133,6 +136,12 @@ def test_flipped_bytes_are_read_or_refused(name: str, tmp_path: Path) -> None:
         for _ in range(rng.choice((1, 1, 3))):
             damaged[rng.randrange(len(data))] = rng.choice((0, 255, 32, 48, 57, 60, 62, rng.randrange(256)))
         is_refused(bytes(damaged), input_format=suffix)
+
+
+def test_lz4_without_its_library_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "lz4.block", None)
+    with pytest.raises(MissingExtraError, match=r"pip install 'curvcli\[formats\]'"):
+        read_mesh_file(io.BytesIO(xml().replace(b"vtkZLib", b"vtkLZ4")))
 
 
 def test_a_bomb_takes_no_memory() -> None:

@@ -18,6 +18,7 @@ from .cells import NONE, STRAIGHT, CellLists, of_lists, of_types
 from .cursor import Cursor
 from .dataset import DataSet, VtkPiece, mesh_file
 from .fields import read_attributes
+from .meanings import Meanings
 
 HEAD = re.compile(rb"#\s*vtk\s+DataFile\s+Version\s+(\d+)\.(\d+)[^\r\n]*(?:\r\n|\n|\r)", re.IGNORECASE)
 _TITLE = re.compile(rb"[^\r\n]*(?:\r\n|\n|\r)")
@@ -41,8 +42,9 @@ def parse_legacy(pieces: Pieces, options: ParserOptions) -> MeshFile:
         raise InputError(f"`{' '.join(words)[:40]}` found, ASCII or BINARY expected", place="line 3")
     cursor = Cursor(data, form.at, text=mode == "ASCII")
     words = cursor.line()
+    fields: list[Attribute] = []
     while words and words[0].upper() == "FIELD":
-        read_attributes(cursor, words, None)
+        fields += read_attributes(cursor, words, None)
         words = cursor.line()
     kind = words[1].upper() if len(words) > 1 and words[0].upper() == "DATASET" else ""
     if kind not in ("POLYDATA", "UNSTRUCTURED_GRID"):
@@ -51,14 +53,14 @@ def parse_legacy(pieces: Pieces, options: ParserOptions) -> MeshFile:
             place=cursor.place,
             hint=STRAIGHT,
         )
-    return _Legacy(cursor, kind, with_offsets=int(head[1]) >= 5).mesh_file(options)
+    return _Legacy(cursor, kind, with_offsets=int(head[1]) >= 5, fields=fields).mesh_file(options)
 
 
 class _Legacy:
     """Sections read so far."""
 
-    def __init__(self, cursor: Cursor, kind: str, with_offsets: bool) -> None:
-        self.cursor, self.kind, self.with_offsets = cursor, kind, with_offsets
+    def __init__(self, cursor: Cursor, kind: str, with_offsets: bool, fields: list[Attribute]) -> None:
+        self.cursor, self.kind, self.with_offsets, self.fields = cursor, kind, with_offsets, fields
         self.points: NDArray[Any] | None = None
         self.lists: dict[str, CellLists] = {}
         self.types: NDArray[Any] | None = None
@@ -79,8 +81,7 @@ class _Legacy:
             elif section or keyword == "FIELD":
                 count = self.counts.get(section)
                 kept = read_attributes(self.cursor, words, count)
-                if section:
-                    self.arrays[section] += kept
+                (self.arrays[section] if section else self.fields).extend(kept)
             else:
                 self._geometry(keyword, words)
         if self.points is None:
@@ -98,7 +99,7 @@ class _Legacy:
             if self.counts.get(section, expected) != expected:
                 raise InputError(f"{self.counts[section]} announced, {expected} expected", place=section)
         piece = VtkPiece(self.points, faces, _distinct(self.arrays["POINT_DATA"]), _distinct(self.arrays["CELL_DATA"]))
-        return mesh_file(DataSet([piece], notices=self.notices), "vtk", options)
+        return mesh_file(DataSet([piece], Meanings(unit=_unit(self.fields)), self.notices), "vtk", options)
 
     def _geometry(self, keyword: str, words: list[str]) -> None:
         cursor = self.cursor
@@ -153,3 +154,11 @@ def _number(words: list[str], place: int, cursor: Cursor) -> int:
 def _distinct(attributes: list[Attribute]) -> list[Attribute]:
     """The attributes, the last of each name, as VTK takes them."""
     return list({attribute.name: attribute for attribute in attributes}.values())
+
+
+def _unit(fields: list[Attribute]) -> str | None:
+    """The only text of a field `unit` or `units` of the whole file."""
+    for field in fields:
+        if field.name.lower() in ("unit", "units") and not field.layout and len(field.values) == 1:
+            return (field.values[0] or "").strip() or None
+    return None

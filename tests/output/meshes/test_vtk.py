@@ -87,8 +87,9 @@ def test_a_unit_in_a_field_of_another_program(tmp_path: Path) -> None:
     pyvista = pytest.importorskip("pyvista")
     mesh = pyvista.wrap(data_set(SHAPES["moebius"](), "polydata"))
     mesh.field_data["unit"] = np.array(["nm"])
-    mesh.save(tmp_path / "a.vtp")
-    assert curvcli.analyze(tmp_path / "a.vtp", "topology").conventions.unit == "nm"
+    for name in ("a.vtp", "a.vtk"):
+        mesh.save(tmp_path / name)
+        assert curvcli.analyze(tmp_path / name, "topology").conventions.unit == "nm"
 
 
 @pytest.mark.slow
