@@ -12,6 +12,7 @@ from ..mesh.surface import Surface
 from ..mesh.topology import ends_of
 from ..mesh.triangles import EPSILON, cross, dot
 from ..support.arrays import Column, Floats, Index, VectorColumn
+from ..support.cache import cached
 from .base import IdentityValues, check, exclude_null, rounding
 
 
@@ -26,6 +27,7 @@ def boundary_segments(groups: Groups, half_edges: Index) -> Segments:
     return Segments(label, groups.count, len(half_edges))
 
 
+@cached
 def _boundary(surface: Surface, groups: Groups) -> tuple[Segments, VectorColumn, VectorColumn]:
     """Segments, midpoints about the base and conormals η|e| of the boundary edges."""
     half_edges = surface.boundary_half_edges

@@ -38,6 +38,9 @@ from .statistics import ColumnStatistics, Statistics, described, listed_statisti
 if TYPE_CHECKING:
     from ..analysis.result import Result
 
+# Regions in a report that have the default statistics of their columns: 7 MB of JSON with the core columns.
+MOST_REGIONS = 1000
+
 
 def build(analysis: Result) -> dict[str, Any]:
     """Build the report as plain Python values."""
@@ -112,17 +115,14 @@ def _components(analysis: Result) -> list[Piece]:
 
 @cached
 def region_statistics(analysis: Result) -> list[Piece]:
-    """The regions with the statistics of their columns."""
+    """The regions with the statistics of their columns; of more than `MOST_REGIONS` only if statistics are named."""
     if analysis.cut is None:
         return []
-    return [
-        replace(piece, columns=columns)
-        for piece, columns in zip(
-            region_pieces(analysis),
-            listed_statistics(analysis.cut, analysis.cut_groups, analysis.request.statistics),
-            strict=True,
-        )
-    ]
+    names, groups, listed = analysis.request.statistics, analysis.cut_groups, region_pieces(analysis)
+    if groups.count > MOST_REGIONS and not names:
+        return listed
+    each = listed_statistics(analysis.cut, groups, names)
+    return [replace(piece, columns=columns) for piece, columns in zip(listed, each, strict=True)]
 
 
 def region_pieces(analysis: Result) -> list[Piece]:

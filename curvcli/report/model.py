@@ -114,8 +114,9 @@ class Fractions(msgspec.Struct, omit_defaults=True):
 class Piece(msgspec.Struct, omit_defaults=True):
     """The whole surface, one component or one region of it; `name` of a region.
 
-    columns: the statistics of each column, of regions, and of components where --stat names some. shares: of a region,
-    the parts of the totals of the whole that belong to its faces; they add up to the whole, as totals do not.
+    columns: the statistics of each column, of up to 1,000 regions, and of any number of regions and components where
+    --stat names some. shares: of a region, the parts of the totals of the whole that belong to its faces; they add up
+    to the whole, as totals do not.
     """
 
     topology: Topology

@@ -124,6 +124,17 @@ def test_a_single_component_has_the_statistics_of_the_whole() -> None:
     assert whole["nulls"] == 1
 
 
+def test_very_many_regions_have_statistics_only_where_some_are_named() -> None:
+    """A report of 100,000 regions stays as long as their topology and totals."""
+    one = meshes.tetrahedron()
+    points = np.concatenate([one.points + np.array([9 * k, 0, 0]) for k in range(1001)])
+    faces, labels = np.concatenate([one.faces + 4 * k for k in range(1001)]), np.repeat(np.arange(1001), 4)
+    for count, stat, expected in ((1000, (), True), (1001, (), False), (1001, "mean", True)):
+        options = {"regions": labels[: 4 * count], "stat": stat}
+        report = curvcli.analyze((points[: 4 * count], faces[: 4 * count]), "K", **options).report()
+        assert [("columns" in region) for region in report["regions"]] == [expected] * count
+
+
 def test_a_region_without_a_value() -> None:
     """A single face has no vertex inside: undefined, counted, never 0."""
     given = meshes.tetrahedron()
