@@ -34,6 +34,7 @@ print(time.process_time() - before)
 READERS = {
     "curvcli": "from curvcli.loading.read import read_mesh_file as read",
     "trimesh": "import trimesh\ndef read(path): return trimesh.load_scene(path, process=False)",
+    "trimesh with merging": "import trimesh\ndef read(path): return trimesh.load_mesh(path)",
     "meshio": "import meshio\ndef read(path): return meshio.read(path)",
     "pymeshlab": "import pymeshlab\ndef read(path): pymeshlab.MeshSet().load_new_mesh(path)",
     "pyvista": "import pyvista\ndef read(path): return pyvista.read(path)",
@@ -46,8 +47,8 @@ CASES: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "stl": (".stl", "trimesh", ("trimesh", "meshio", "pymeshlab", "pyvista")),
     "obj": (".obj", "curvcli", ("meshio", "pymeshlab", "pyvista")),
     "off": (".off", "curvcli", ("trimesh", "meshio", "pymeshlab")),
-    "glb": (".glb", "trimesh", ("trimesh",)),
-    "gltf": (".gltf", "trimesh", ("trimesh",)),
+    "glb": (".glb", "trimesh", ("trimesh", "trimesh with merging")),
+    "gltf": (".gltf", "trimesh", ("trimesh", "trimesh with merging")),
     "3mf": (".3mf", "trimesh", ("trimesh",)),
     "fe": (".fe", "curvcli", ()),
     "vtp": (".vtp", "pyvista", ("pyvista",)),

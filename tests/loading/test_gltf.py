@@ -253,6 +253,8 @@ def primitive(tree: Json) -> Json:
         (lambda t: t["nodes"][0].update(mesh=3), "mesh 3 found"),
         (lambda t: t["nodes"][0].update(matrix=[1, 2]), "no glTF 2"),
         (lambda t: t["nodes"][0].pop("mesh"), "no faces"),
+        (lambda t: t["meshes"][0]["primitives"].clear(), "no faces"),
+        (lambda t: t["meshes"].clear(), "mesh 0 found"),
         (lambda t: t.update(scene=4), "scene 4 found"),
         (lambda t: t.update(scenes=[{"nodes": [0, 0]}]), "two parents"),
     ],
@@ -314,3 +316,9 @@ def test_truncated_and_damaged_files() -> None:
         deep.node(children=[k + 2])
     deep.node(0)
     assert read(deep.glb(), weld="none").polygons == 8
+
+
+def test_a_scene_without_any_data_has_no_faces() -> None:
+    text = json.dumps({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}], "scenes": [{"nodes": [0]}]}).encode()
+    assert_refused(text, "no faces")
+    assert_refused(as_glb(text + b" " * (-len(text) % 4), b""), "no faces")

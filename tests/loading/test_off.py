@@ -73,6 +73,7 @@ DIALECTS: dict[str, Callable[[Shape], bytes]] = {
     "windows": lambda shape: off(shape, end="\r\n"),
     "old mac": lambda shape: off(shape, end="\r"),
     "empty lines": lambda shape: off(shape, end="\n \n\n"),
+    "counts right behind the word": lambda shape: off(shape).replace(b"OFF\n", b"OFF", 1),
     "counts on the first line": lambda shape: off(shape).replace(b"OFF\n", b"OFF ", 1),
     "no number of edges": lambda shape: off(shape, counts="{V} {F}"),
     "a count per line": lambda shape: off(shape, counts="{V}\n{F}\n{E}"),

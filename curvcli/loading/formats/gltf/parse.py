@@ -7,6 +7,7 @@ import binascii
 import io
 import struct
 from collections.abc import Iterator
+from itertools import accumulate
 from typing import Any
 
 import msgspec
@@ -105,6 +106,8 @@ def _parse(
             if primitive.mode >= TRIANGLES:
                 check_primitive(tree, primitive, f"mesh {mesh}, primitive {k}")
     _check_size(tree, parts, placed, size, max_faces)
+    if not any(parts.values()):
+        raise InputError("no faces", hint="a surface needs a node with a mesh of triangles")
     buffers = _buffers(tree, binary)
     arrays = _decoded(tree, parts, buffers)
     return _assembled(tree, parts, placed, arrays, name, notices)
@@ -137,7 +140,7 @@ def _decoded(tree: Tree, parts: dict[int, list[Primitive]], buffers: list[bytes]
             if one.indices is not None:
                 reduced["indices"] = kept.setdefault(one.indices, len(kept))
             meshes.append({"primitives": [reduced]})
-    offsets = np.concatenate(([0], np.cumsum([len(buffer) for buffer in buffers]))).tolist()
+    offsets = [0, *accumulate(len(buffer) for buffer in buffers)]
     views, accessors = [], []
     for number in kept:
         accessor = tree.accessors[number]

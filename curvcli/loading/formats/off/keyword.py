@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ....errors import InputError
 
-SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+((?:ST|[CN4n])*OFF)(?=\s|#|$)")
+SIGN = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s*+#[^\r\n]*+[\r\n])*+\s*+((?:ST|[CN4n])*OFF)(?=[\s#\d]|$)")
 _FIELDS = re.compile(r"ST|[CN]")
 _NAMES = {"N": ("nx", "ny", "nz"), "C": ("red", "green", "blue", "alpha"), "ST": ("s", "t")}
 
