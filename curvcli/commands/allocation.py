@@ -32,4 +32,4 @@ def keep_memory() -> None:
         return  # a C library of another kind
     mallopt(_M_MMAP_MAX, 0)
     mallopt(_M_TRIM_THRESHOLD, -1)
-    mallopt(_M_ARENA_MAX, 1)  # arenas of other threads return freed memory to the system
+    mallopt(_M_ARENA_MAX, 1)  # else the arenas of other threads take 20 % more memory

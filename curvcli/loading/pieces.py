@@ -102,11 +102,6 @@ class Pieces:
         assert self._hash is not None
         return self._hash.hexdigest()
 
-    def clear(self) -> None:
-        """Release all taken bytes at once: one large block of free memory is reused, many small ones hardly are."""
-        self._data, self._at = b"", 0
-        self._buffers.clear()
-
     def _buffer(self, count: int) -> bytearray:
         """A buffer for a piece; buffers rotate, so that earlier pieces can still be parsed."""
         if len(self._buffers) < _BUFFERS:

@@ -91,8 +91,6 @@ def _read(
         except InputError:
             hashed.check()  # what is wrong with a file that changes is that it changes
             raise
-        pieces.clear()
-        hashed.clear()
         check_faces(mesh.polygons, options.max_faces)
         merged = "exact" if exact else "none" if weld == "auto" else str(weld)
         notices = (*notices, *mesh.notices)
