@@ -105,7 +105,7 @@ def test_inputs_are_neither_changed_nor_held() -> None:
 
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_arrays_may_be_changed_afterwards(order: Any) -> None:
-    """Whatever their layout and type, a surface holds copies."""
+    """A surface holds copies of arrays of any layout and type."""
     body = meshes.tetrahedron()
     for points in (np.array(body.points, order=order), np.array(body.points.T, order=order).T):
         faces = np.array(body.faces, np.int32, order=order)

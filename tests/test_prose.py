@@ -15,7 +15,7 @@ FOLDERS = ("curvcli", "tests", "benchmarks", "docs")
 SOURCES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py"))
 DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
-RELATIVE = r"(?:What|Which|Who|Whose|Whom|Whether|How|Where)\b"
+RELATIVE = r"(?:Wh(?:at|ich|o|ere)(?:ever)?|Whose|Whom|Whether|How)\b"
 BEGINS = re.compile(rf"\W*{RELATIVE}")
 # A sentence, or a clause after a colon, that begins with one and is no question.
 SENTENCE = re.compile(rf"(?:^|[.;:] ){RELATIVE}[^.?]*(?:\.|$)")

@@ -96,6 +96,7 @@ def test_everything_is_accounted_for(scans: Path, run: Run) -> None:
     assert summary("out") == once[0]
 
 
+@pytest.mark.slow
 def test_resume_does_what_changed(scans: Path, run: Run) -> None:
     assert run("batch", "scans/*.*", "-o", "out", "--save", "csv", "-q").code == 3
     first = manifest("out")
@@ -220,6 +221,7 @@ def test_codes_are_those_of_the_program() -> None:
     assert msgspec.json.decode(msgspec.json.encode(Row(path="x")), type=Row) == Row(path="x")
 
 
+@pytest.mark.slow
 def test_workers_start_before_what_only_the_parent_waits_for(scans: Path) -> None:
     """Two of them for many meshes, one for one mesh, none that a resumed batch may not need."""
     program = """

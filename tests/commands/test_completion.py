@@ -155,7 +155,7 @@ BASH = shutil.which("bash")
 @pytest.mark.skipif(BASH is None, reason="bash is not installed")
 @pytest.mark.parametrize("end", ["", "\n", "\\\n", " # comment \\", "\nfalse\n"])
 def test_bash_reads_what_was_installed(end: str, tmp_path: Path) -> None:
-    """Whatever its last line is, the file is read to its end, and the shell completes."""
+    """A file with any last line is read to its end, and the shell completes."""
     (tmp_path / ".bashrc").write_text("before=1" + end)
     assert install(tmp_path, "install", "bash")[0] == 0
     (tmp_path / "bin").mkdir()

@@ -200,7 +200,7 @@ def test_a_hostile_name_of_the_file_is_text(tmp_path: Path) -> None:
 
 
 def test_no_option_that_names_files_is_forgotten(tmp_path: Path) -> None:
-    """Whoever adds one decides: refused, or named in the verdict as a baseline is."""
+    """A new option is refused, or named in the verdict as a baseline is."""
     for name in COMMANDS:
         command = cli.get_command(click.Context(cli), name)
         assert command is not None

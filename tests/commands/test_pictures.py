@@ -129,6 +129,7 @@ def test_nothing_that_draws_is_imported_for_a_table(tmp_path: Path) -> None:
     assert done.stdout == "\n"
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("opengl")
 def test_a_batch_draws_too(within: Run, tmp_path: Path) -> None:
     ended = within(

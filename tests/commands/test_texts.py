@@ -49,6 +49,7 @@ class Page(HTMLParser):
         self.said.append(data)
 
 
+@pytest.mark.slow
 @every
 def test_pipes_and_files(source: Source, within: Run, tmp_path: Path) -> None:
     arguments = source.make(tmp_path)

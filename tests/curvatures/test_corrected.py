@@ -72,7 +72,7 @@ def test_five_rings_tell_the_mean_curvature_under_noise(name: str) -> None:
 
 @pytest.mark.parametrize("rings", [1, 3])
 def test_spheres_are_exact(rings: int) -> None:
-    """Whatever the triangles are: the normals of complete stars on a sphere are, and with them everything."""
+    """Normals of complete stars on a sphere are exact for any triangles, and so are the estimates."""
     known, found = estimated("sphere", 2_500, rings=rings)
     for column, exact in (("K_corrected", 0.25), ("h_corrected", 1.0)):
         np.testing.assert_allclose(found.vertices[column], exact, rtol=1e-9)

@@ -1,4 +1,4 @@
-"""Whoever follows docs/add-a-check.md, on a copy of the project, has an identity and a requirement everywhere."""
+"""Steps of docs/add-a-check.md, on a copy of the project: an identity and a requirement everywhere."""
 
 from __future__ import annotations
 

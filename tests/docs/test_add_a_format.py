@@ -1,13 +1,16 @@
-"""Whoever follows docs/add-a-format.md, on a copy of the project, has an input format everywhere."""
+"""Steps of docs/add-a-format.md, on a copy of the project: an input format everywhere."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from tests.docs.clone import changed, clone, follow
 from tests.docs.pages import ROOT
 
 
+@pytest.mark.slow
 def test_the_page_as_written(tmp_path: Path) -> None:
     project = clone(tmp_path / "clone")
     follow("docs/add-a-format.md", project)

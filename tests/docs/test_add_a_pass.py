@@ -1,4 +1,4 @@
-"""Whoever follows docs/add-a-pass.md, on a copy of the project, has a quantity that is everywhere."""
+"""Steps of docs/add-a-pass.md, on a copy of the project: a quantity everywhere."""
 
 from __future__ import annotations
 

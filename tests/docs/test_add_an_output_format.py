@@ -1,4 +1,4 @@
-"""Whoever follows docs/add-an-output-format.md, on a copy of the project, has an output format everywhere."""
+"""Steps of docs/add-an-output-format.md, on a copy of the project: an output format everywhere."""
 
 from __future__ import annotations
 

@@ -124,7 +124,7 @@ def test_max_bytes_bounds_what_is_unpacked(tmp_path: Path) -> None:
 
 
 def test_a_record_that_lies_is_refused(tmp_path: Path) -> None:
-    """Whatever a byte of the record or of the headers of pages is changed to: refused in one line, or a table."""
+    """A changed byte of the record or of the headers of pages: refused in one line, or a table."""
     pl.DataFrame({"vertex": np.arange(10), "K": np.linspace(0, 1, 10)}).write_parquet(tmp_path / "t.parquet")
     content = bytearray((tmp_path / "t.parquet").read_bytes())
     path = tmp_path / "d.parquet"

@@ -9,6 +9,8 @@ import sysconfig
 import venv
 from pathlib import Path
 
+import pytest
+
 from tests.helpers.cli.program import environment
 
 # Every wrong line is marked: were the package untyped, its marks would be superfluous, which is an error too.
@@ -50,6 +52,7 @@ analysis.passed + "yes"  # type: ignore[operator]
 """
 
 
+@pytest.mark.slow
 def test_a_program_of_somebody_else_is_checked(installed: Path, tmp_path: Path) -> None:
     """In an environment of its own that has the wheel, and the dependencies of this one behind it."""
     home = tmp_path / "venv"

@@ -104,6 +104,7 @@ def test_another_seed_is_another_mesh(name: str) -> None:
     assert {key: second.facts[key] for key in TOPOLOGY} == topology(faces_of(second))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in SIZED if name not in {"pinched", "book"}])
 def test_a_hundred_thousand_vertices(name: str) -> None:
     sample = get(name)(size=100_000)

@@ -62,6 +62,7 @@ def test_a_passing_mesh_prints_a_screenful_however_many_bodies_it_has(count: int
         assert sum(one["name"] == "gauss_bonnet" for one in complete) == 31
 
 
+@pytest.mark.slow
 def test_ten_thousand_failing_components_are_the_first_few_and_a_count() -> None:
     report = report_of(RULES, [mesh("bed.stl", MANY, 5)], 1)
     told = lines(report)
@@ -86,6 +87,7 @@ def test_reports_for_programs_are_complete() -> None:
     assert write_junit(report).count(b"<testcase ") == 56
 
 
+@pytest.mark.slow
 def test_many_meshes_are_summed_up() -> None:
     passing = [mesh(f"{k}.stl", 0, 3) for k in range(1000)]
     told = lines(report_of(RULES, passing, 0))
