@@ -16,6 +16,7 @@ from ..output.registry import format_of
 from ..report.compare.values import total_exponents
 from ..report.entries import entries
 from ..report.groups.members import key_of
+from ..report.model import Topology
 from ..support.arrays import Floats
 from ..support.words import suggestion
 from .model import OWN, BatchItem, Row
@@ -71,7 +72,9 @@ def _key(text: str, long: bool) -> str:
         known = [*total_exponents(), "K", "area"]
         plain = name[:-2] if name[-2:] in ("_x", "_y", "_z") else name
         if name not in known and plain not in known and "@" not in name and name.rpartition("_")[0] not in known:
-            raise UsageError(f"--plot {text}: there is no total {name!r}{suggestion(name, known)}")
+            known += [f"topology.{field}" for field in Topology.__struct_fields__]
+            near = f"topology.{name}" if name in Topology.__struct_fields__ else name
+            raise UsageError(f"--plot {text}: there is no total {name!r}{suggestion(near, known)}")
     return key
 
 

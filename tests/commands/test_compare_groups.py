@@ -103,3 +103,20 @@ def test_another_json_file_is_named(within: Run, reports: Path, tmp_path: Path) 
     assert ended.code == 3
     assert "x.json" in ended.err
     assert len(ended.err.splitlines()) == 1
+
+
+def test_the_plot_shows_differences_of_any_size(within: Run, tmp_path: Path) -> None:
+    """Deviations of 10³⁰⁸ do not overflow; a difference beyond the axis is an arrow at its end."""
+    sphere = of_sample("icosphere", size=42)
+    report = curvcli.analyze((sphere.points, sphere.faces)).report()
+    generator = np.random.default_rng(0)
+    for name, shift in (("a", 0.0), ("b", 1e3)):
+        (tmp_path / name).mkdir()
+        for k in range(3):
+            report["totals"] |= {"area": 1e308 * generator.random(), "K": 12 + generator.random() + shift}
+            report["topology"] |= {"faces": 0, "vertices": 0}
+            (tmp_path / name / f"{k}.json").write_text(json.dumps(report))
+    assert within("compare", "a", "b", "--only", "totals", "-q", "-o", "d.svg").code == 0
+    text = (tmp_path / "d.svg").read_text()
+    assert "totals.area</text>" in text
+    assert "beyond ±20</text>" in text
