@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from curvcli.batch import series
 from curvcli.batch.model import Row, RowStatistics
 from curvcli.curvatures.catalogue import load_passes
 from curvcli.errors import UsageError
+from curvcli.output.pictures.series import write_series
 from tests.batch.conftest import Run
 from tests.helpers.meshes import of_sample
 
@@ -98,3 +100,12 @@ def test_two_plots_have_two_names() -> None:
     load_passes()
     with pytest.raises(UsageError, match="another output has the name"):
         series.parse_plots(["area", "K"], "out", [], long=False)
+
+
+@pytest.mark.parametrize(
+    "values", [[1.7e308, -1.7e308, 0], [1.79e308], [5e-324, 0, 1e-323], [np.nan, 2, np.nan], [1, 1 + 1e-15, 1]]
+)
+def test_values_of_any_size_are_drawn(values: list[float]) -> None:
+    stream = io.BytesIO()
+    write_series(stream, {"k": {"k": np.array(values, float)}}, ["m"] * len(values), ".svg")
+    assert b">k" in stream.getvalue()

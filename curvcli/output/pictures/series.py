@@ -49,15 +49,16 @@ def _panel(sheet: Sheet, key: str, lines: Mapping[str, Floats], count: int, top:
     axes = sheet.axes(box)
     drawn = list(lines.values())[:_LINES]
     marker = "o" if count <= _MARKED else None
-    for values, color in zip(drawn, _colors(len(lines)), strict=False):
-        axes.plot(np.arange(count), values, color=color, linewidth=1.4, marker=marker, markersize=3.5)
     known = np.concatenate([values[np.isfinite(values)] for values in drawn])
-    low, high = float(known.min()), float(known.max())
-    places, labels, power = ticks(low, high, 5)
-    spread = high / 2 - low / 2
-    room = 0.1 * spread or 0.05 * max(abs(low), abs(high)) or 1.0
+    places, labels, power = ticks(float(known.min()), float(known.max()), 5)
+    # In units of a power of two near the largest value, so that neither margins nor distances overflow.
+    unit = float(np.ldexp(1.0, max(int(np.frexp(np.abs(known).max())[1]) - 1, -1000)))
+    for values, color in zip(drawn, _colors(len(lines)), strict=False):
+        axes.plot(np.arange(count), values / unit, color=color, linewidth=1.4, marker=marker, markersize=3.5)
+    low, high = float(known.min()) / unit, float(known.max()) / unit
+    room = 0.05 * (high - low) or 0.05
     axes.set_ylim(low - room, high + room)
-    axes.set_yticks(places, labels)
+    axes.set_yticks([place / unit for place in places], labels)
     positions, numbers, _ = ticks(0, max(count - 1, 1), 9, whole=True)
     axes.set_xlim(-0.02 * max(count - 1, 1), 1.02 * max(count - 1, 1))
     axes.set_xticks(positions, numbers)
