@@ -167,7 +167,8 @@ def _box(part: ScopedStatistics, key: str) -> Floats:
 
     with np.errstate(over="ignore"):
         if what == "diagonal":
-            return np.sqrt(sum((high - low) ** 2 for low, high in map(ends, range(3))))
+            x, y, z = (high - low for low, high in map(ends, range(3)))
+            return np.hypot(np.hypot(x, y), z)  # no square leaves the range of doubles
         low, high = ends("xyz".index(axis))
         return {"min": low, "max": high, "extent": high - low}[what]
 
