@@ -15,6 +15,7 @@ from ..loading.limits import parse_weld
 from ..output.registry import listed
 from . import candidates, options
 from .config_notes import configuration
+from .drawing import appearance_of, drawing
 from .limits import bounded
 from .meshes import each_mesh, input_of
 from .outputs import one_stdout, print_report, stdin_once, table_option
@@ -68,7 +69,7 @@ def _tables() -> Iterable[str]:
 @options.get("totals.K")
 @options.schema
 @options.stream_format
-@options.drawing
+@drawing
 @options.precision
 @options.force
 @options.strict
@@ -130,7 +131,7 @@ class AnalyzeRun:
         parse_statistics(conventions["stat"])
         self.force, self.strict, self.quiet, self.verbose = force, strict, quiet, verbose
         self.stream_format = stream_format
-        self.appearance: Appearance = options.appearance(conventions, precision)
+        self.appearance: Appearance = appearance_of(conventions, precision)
         kinds = [table_option(table, TABLES) for table in tables]
         self.shared = SharedOutputs(meshes, outputs, kinds)
         own = [output for output in outputs if output not in self.shared.pictures]

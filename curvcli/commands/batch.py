@@ -16,14 +16,15 @@ from ..errors import UsageError, worst
 from ..loading.limits import parse_weld
 from ..support.words import counted
 from . import candidates, options
+from .batch_pictures import draw_plots, planned_plots, with_common_ranges
 from .config_notes import configuration
+from .drawing import appearance_of, drawing
 from .settings import merge_settings, setting
 from .talk import say
 
 if TYPE_CHECKING:
     from ..batch.batch import Batch
-    from ..batch.model import BatchItem, BatchSettings, Engine, Limits, Row
-    from ..batch.series import Plot
+    from ..batch.model import BatchItem, BatchSettings, Engine, Limits
 
 
 @click.command("batch", short_help="Analyse many meshes: workers, timeouts, resume, a summary.")
@@ -78,7 +79,7 @@ if TYPE_CHECKING:
 @options.reading
 @options.estimating
 @setting
-@options.drawing
+@drawing
 @click.option("--force", is_flag=True, help="Start again in a DIR that is not empty and replace its outputs.")
 @options.strict
 @options.talking
@@ -137,7 +138,7 @@ def run(
     wanted = saves(save)
     limits = Limits(timeout, None if max_memory is None else max_memory << 20)
     items = plan(patterns, files_from, folder, wanted)
-    drawn = _plots(plots, folder, items, conventions["long"])
+    drawn = planned_plots(plots, folder, items, conventions["long"])
     with ExitStack() as workers:
         # Workers start while this process imports; the number of meshes left by a resumed batch is not known yet.
         ready = scheduler is None and not resume
@@ -150,7 +151,7 @@ def run(
 
         with Manifest(folder, resume=resume, force=force) as manifest:
             if how.common:
-                how = _with_common_ranges(items, how, engine, manifest.rows, quiet)
+                how = with_common_ranges(items, how, engine, manifest.rows, quiet)
             batch = Batch(items, how, folder, manifest, strict)
             todo = batch.todo()
             try:
@@ -158,43 +159,10 @@ def run(
             finally:
                 workers.close()
                 batch.finish()
-                _draw(drawn, batch)
+                draw_plots(drawn, batch)
                 if not quiet:
                     _print_summary(batch, len(todo))
     return worst([row.exit_code for row in batch.rows])
-
-
-def _with_common_ranges(
-    items: Sequence[BatchItem], settings: BatchSettings, engine: Engine, known: dict[str, Row], quiet: bool
-) -> BatchSettings:
-    from ..batch.batch import content_hash
-    from ..batch.ranges import with_common_ranges
-    from .progress import phase
-
-    with phase("choosing the common range", quiet):
-        hashes = {item.path: content_hash(item) or "" for item in items if item.path in known}
-        return with_common_ranges(items, settings, engine, known, hashes)
-
-
-def _plots(texts: tuple[str, ...], folder: str, items: Sequence[BatchItem], long: bool) -> list[Plot]:
-    if not texts:
-        return []
-    from ..batch.series import parse_plots
-    from ..curvatures.catalogue import load_passes
-    from ..output.pictures.options import require_pictures
-
-    require_pictures(surface=False)
-    load_passes()
-    return parse_plots(texts, folder, items, long)
-
-
-def _draw(plots: list[Plot], batch: Batch) -> None:
-    """Draw the plots of the ended meshes."""
-    if plots and batch.rows:
-        from ..batch.series import write_plots
-
-        for line in write_plots(batch.folder, plots, batch.rows):
-            say(line)
 
 
 def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **conventions: Any) -> BatchSettings:
@@ -217,7 +185,7 @@ def _settings(save: tuple[str, ...], *, passes: tuple[str, ...], weld: str, **co
     common = (conventions["value_range"] or "").strip().lower() == COMMON
     if common:
         conventions["value_range"] = None
-    appearance = options.appearance(conventions)
+    appearance = appearance_of(conventions)
     check_appearance(appearance, at_scale, [f".{suffix}" for suffix in save])
     if common:
         from ..batch.ranges import shown

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 _HARMLESS = {
     *("quiet", "verbose", "as_json", "get", "stream_format", "report_format", "precision", "unit", "save", "jobs"),
     *("resume", "color_by", "cmap", "value_range", "view", "up", "size", "background", "edges_on", "quality"),
+    *("histograms", "bins", "dpi", "columns", "long"),
 }
 
 
