@@ -156,6 +156,9 @@ class ElementRows:
 
 def row_of_numbers(ids: NDArray[np.int64], wanted: NDArray[Any], rows: ElementRows, name: str) -> NDArray[np.int32]:
     """The row of each wanted number. Errors: InputError for a number that no element has, or that two have."""
+    consecutive = bool(len(ids)) and bool((ids == np.arange(1, len(ids) + 1)).all())
+    if consecutive and wanted.min(initial=1) >= 1 and wanted.max(initial=1) <= len(ids) and (wanted % 1 == 0).all():
+        return wanted.astype(np.int32) - np.int32(1)
     order = np.argsort(ids, kind="stable")
     ordered = ids[order]
     twice = np.flatnonzero(ordered[1:] == ordered[:-1])
