@@ -15,15 +15,19 @@ Matrix = NDArray[np.float64]
 """(4, 4) transform of positions as columns."""
 Runs = list[tuple[int, int]]
 """A label and a number of consecutive faces; -1 for no label."""
+# Copies that any file may have, and bytes of a file for each further one.
+_FREE_COPIES, _PER_COPY = 10_000, 16
 # Bytes of a vertex and of a triangle in memory.
 _PER_VERTEX, _PER_TRIANGLE = 24, 12
 
 
-def check_copies(vertices: int, faces: int, size: int, max_faces: int | None) -> None:
-    """Check the number of all vertices and faces of a scene against the size of its file in bytes.
+def check_copies(copies: int, vertices: int, faces: int, size: int, max_faces: int | None) -> None:
+    """Check the numbers of all copies, vertices and faces of a scene against the size of its file in bytes.
 
     Errors: InputError for more than max_faces, or for copies out of proportion to the file.
     """
+    if copies > _FREE_COPIES + size // _PER_COPY:
+        raise InputError(f"{copies} copies of meshes in all, too many for {size} bytes")
     check_faces(faces, max_faces)
     if _PER_VERTEX * vertices + _PER_TRIANGLE * faces > free_inflation(size):
         raise InputError(f"copies of meshes with {number_of(faces, 'face')} in all, too many for {size} bytes")

@@ -322,3 +322,12 @@ def test_a_scene_without_any_data_has_no_faces() -> None:
     text = json.dumps({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}], "scenes": [{"nodes": [0]}]}).encode()
     assert_refused(text, "no faces")
     assert_refused(as_glb(text + b" " * (-len(text) % 4), b""), "no faces")
+
+
+def test_copies_of_empty_parts_are_bounded() -> None:
+    scene = Scene()
+    mesh = scene.mesh(BODY[0], np.empty((0, 3), int))
+    scene.tree["meshes"][mesh]["primitives"] *= 3000
+    for _ in range(3000):
+        scene.node(mesh)
+    assert_refused(scene.glb(), "9000000 copies of meshes")

@@ -116,6 +116,8 @@ def _parse(
 def _check_size(
     tree: Tree, parts: dict[int, list[Primitive]], placed: list[tuple[int, int, Matrix]], size: int, most: int | None
 ) -> None:
+    copies = sum(len(parts[mesh]) for _, mesh, _ in placed)
+    check_copies(copies, 0, 0, size, most)
     faces = vertices = 0
     for _, mesh, _ in placed:
         for one in parts[mesh]:
@@ -123,7 +125,7 @@ def _check_size(
             corners = position if one.indices is None else tree.accessors[one.indices].count
             faces += corners // 3 if one.mode == TRIANGLES else max(0, corners - 2)
         vertices += sum(tree.accessors[at].count for at in {one.position for one in parts[mesh]})
-    check_copies(vertices, faces, size, most)
+    check_copies(copies, vertices, faces, size, most)
 
 
 def _decoded(tree: Tree, parts: dict[int, list[Primitive]], buffers: list[bytes]) -> list[dict[str, Any]]:

@@ -56,13 +56,13 @@ def parse_model(data: bytes, place: str, materials: dict[str, int]) -> Model:
         raise InputError(f"XML of `{_local(root)[:40]}` found, `model` expected", place=place[:80])
     model = Model(root.get("unit", _NO_UNIT)[:40])
     palette = _palette(root)
-    for each in _inside(root, "object"):
+    for each in _below(root, "resources", "object"):
         number = _required(each, "id")
         model.names[number] = each.get("name") or f"object {number}"
-        for mesh in _inside(each, "mesh"):
+        for mesh in _below(each, "mesh"):
             model.parts[number] = _part(each, mesh, blocks, palette, materials)
-        model.components[number] = [_placed(component) for component in _inside(each, "component")]
-    for item in _inside(root, "item"):
+        model.components[number] = [_placed(component) for component in _below(each, "components", "component")]
+    for item in _below(root, "build", "item"):
         model.items.append((*_placed(item), item.get("partnumber")))
     return model
 
@@ -86,8 +86,11 @@ def _local(element: Element) -> str:
     return str(element.tag).rpartition("}")[2]
 
 
-def _inside(element: Element, name: str) -> Iterator[Element]:
-    return (each for each in element.iter() if each is not element and _local(each) == name)
+def _below(element: Element, name: str, *inner: str) -> Iterator[Element]:
+    """The children of a name, or their children of the next name."""
+    for each in element:
+        if _local(each) == name:
+            yield from _below(each, *inner) if inner else (each,)
 
 
 def _required(element: Element, name: str) -> str:

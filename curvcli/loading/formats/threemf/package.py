@@ -11,7 +11,7 @@ from ....errors import InputError
 from ...content import free_inflation, too_large
 
 _TARGET = re.compile(
-    rb"""<(?:[\w.-]+:)?Relationship\s(?=[^>]*/3dmodel["'])[^>]*?\bTarget\s*=\s*["'](/?[^"'<>]+)["']""",
+    rb"""<(?:[\w.-]+:)?Relationship\s(?=[^<>]*/3dmodel["'])[^<>]*?\bTarget\s*=\s*["'](/?[^"'<>]+)["']""",
 )
 _SILENT = re.compile(rb"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?(?!xml[\s?]).*?\?>", re.DOTALL)
 _ENCODING = re.compile(rb"""<\?xml[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")

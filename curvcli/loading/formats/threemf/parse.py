@@ -12,8 +12,6 @@ from .model import Model, ObjectMesh, parse_model
 from .package import Package
 
 _DEEPEST = 100
-# Components that any file may have in all, and bytes of a file for each further one.
-_FREE_COPIES, _PER_COPY = 10_000, 16
 
 
 def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
@@ -31,7 +29,6 @@ def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     runs: Runs = []
     names: list[str] = []
     vertices = faces = copies = 0
-    most = _FREE_COPIES + len(data) // _PER_COPY
     for number, (target, path, matrix, part_number) in enumerate(models[_key(root)].items):
         stack = [(target, _key(path or root), matrix, 0)]
         count = 0
@@ -48,12 +45,10 @@ def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
                 placed.append((part, outer))
                 vertices, faces = vertices + len(part.points), faces + len(part.faces)
                 count += len(part.faces)
-                check_copies(vertices, faces, len(data), max_faces)
             inner = model.components[each]
             stack += [(one, _key(other or key), product(outer, own), depth + 1) for one, other, own in reversed(inner)]
             copies += len(inner)
-            if copies > most:
-                raise InputError(f"more than {most} components in all, too many for {len(data)} bytes")
+            check_copies(copies, vertices, faces, len(data), max_faces)
         runs.append((number, count))
         names.append(part_number or models[_key(path or root)].names[target])
     if not faces:
