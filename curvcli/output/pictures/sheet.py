@@ -6,6 +6,7 @@ import io
 import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,8 @@ Box = tuple[float, float, float, float]  # left, top, width, height in pixels, f
 _FONT = "DejaVu Sans"
 _SMALLEST_FONT, _LARGEST_FONT = 8.0, 26.0
 LINE = 1.4  # line height over font size
+# Settings of matplotlib belong to the process: one thread at a time changes and restores them.
+_SETTINGS = Lock()
 _TEXT_AS_TEXT = {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "curvcli"}
 
 
@@ -147,10 +150,11 @@ class Sheet:
             "pdf": {"Title": title, "Subject": description, "Creator": program, "CreationDate": None},
             "svg": {"Title": title, "Description": description, "Creator": program, "Date": None},
         }
-        with warnings.catch_warnings(), rc_context(_TEXT_AS_TEXT):
+        with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             if self.vector:
-                self.figure.savefig(stream, format=self.format, metadata=metadata[self.format])
+                with _SETTINGS, rc_context(_TEXT_AS_TEXT):
+                    self.figure.savefig(stream, format=self.format, metadata=metadata[self.format])
             else:
                 self.canvas.print_png(stream, metadata=metadata["png"])
         return stream.getvalue()

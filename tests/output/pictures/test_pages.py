@@ -6,6 +6,7 @@ import base64
 import io
 import re
 import zlib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -102,3 +103,13 @@ def test_too_many_pixels_are_refused_before_any_work() -> None:
         check_picture_options(PictureOptions(dpi=1200), page=True)
     check_picture_options(PictureOptions(dpi=682), page=True)
     check_picture_options(PictureOptions(dpi=1200))
+
+
+def test_threads_leave_the_settings_of_matplotlib_as_they_were(analysis: Analysis, tmp_path: Path) -> None:
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    with ThreadPoolExecutor(4) as pool:
+        pages = list(pool.map(lambda k: drawn(analysis, tmp_path / f"{k}.hist.svg"), range(8)))
+    assert dict(matplotlib.rcParams) == before
+    assert len(set(pages)) == 1
