@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import binascii
 import io
 import struct
@@ -78,7 +77,7 @@ def _buffers(tree: Tree, binary: bytes | None) -> list[bytes]:
             content = binary
         else:
             try:
-                content = base64.b64decode(embedded(buffer, number), validate=True)
+                content = binascii.a2b_base64(embedded(buffer, number), strict_mode=True)
             except (binascii.Error, ValueError) as error:
                 raise InputError(f"damaged base64 data found ({error})", place=f"buffer {number}") from None
         if len(content) < buffer.byte_length:
