@@ -108,7 +108,7 @@ def test_a_name_ends_no_quotes(name: str, tmp_path: Path) -> None:
     assert len(message.splitlines()) == 1
 
 
-@pytest.mark.parametrize("command", [["analyze"], ["check"], ["curves"], ["compare", CUBE]])
+@pytest.mark.parametrize("command", [["analyze"], ["check"], ["curves"]])
 def test_a_folder_names_the_glob_and_batch(command: list[str], tmp_path: Path) -> None:
     folder = tmp_path / "my parts"
     folder.mkdir()
