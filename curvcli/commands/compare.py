@@ -12,7 +12,7 @@ from ..errors import FAILED_CHECK, OK
 from ..loading.limits import parse_weld
 from . import candidates, options
 from .config_notes import configuration
-from .groups import GROUP_OPTIONS, group_options, is_group
+from .groups import GROUP_OPTIONS, are_groups, group_options
 from .limits import bounded
 from .meshes import input_of
 from .outputs import one_stdout, print_report, tables_and_reports
@@ -153,7 +153,7 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
             raise click.UsageError(f"{flag} goes {'without' if as_map else 'with'} --map", context)
     if settings.pop("vertexwise"):
         return _compare_vertices(context, a, b, as_map, settings)
-    if is_group(a) or is_group(b):
+    if are_groups(a, b):
         return _compare_groups(context, a, b, as_map, settings)
     for name in GROUP_OPTIONS:
         if context.get_parameter_source(name) is ParameterSource.COMMANDLINE:

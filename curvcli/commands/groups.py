@@ -75,6 +75,15 @@ def is_group(path: str) -> bool:
     return os.path.isdir(path) or (any(sign in path for sign in _WILD) and not os.path.exists(path))
 
 
+def are_groups(a: str, b: str) -> bool:
+    """True if both are groups, or one is and holds reports: a folder of meshes beside a mesh is no group."""
+    return (is_group(a) and is_group(b)) or any(is_group(path) and _holds_reports(path) for path in (a, b))
+
+
+def _holds_reports(path: str) -> bool:
+    return not os.path.isdir(path) or any(glob.iglob(os.path.join(glob.escape(path), _REPORTS), recursive=True))
+
+
 def compare_groups(
     a: str,
     b: str,

@@ -24,7 +24,7 @@ CORE = (
 
 
 # Rectified integrals and the indices of cortical folding.
-FOLDING = ("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_curvature_index")
+FOLDING = ("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_index")
 
 # Standard deviations of K and h for noisy coordinates.
 UNCERTAINTIES = ("K_sigma", "h_sigma")

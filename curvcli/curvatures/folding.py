@@ -107,13 +107,13 @@ def folding_index(h: Column, K_density: Column, star_area: Column) -> Column:
 @curvature_pass(
     symbol="max(K_p, 0)/4π",
     formula="max(K_p, 0) / 4π",
-    total="intrinsic_curvature_index",
+    total="intrinsic_index",
     after="folding_index",
     total_after="folding_index",
     preserves="Σ = 1 on convex bodies exactly, at least 1 on closed surfaces",
     source=_VAN_ESSEN,
     **_GAUSS,
 )
-def intrinsic_curvature_index(K: Column) -> Column:
+def intrinsic_index(K: Column) -> Column:
     """Intrinsic curvature index of the vertex: its positive Gauss curvature in units of that of a sphere."""
     return np.maximum(K, 0.0) / (4 * np.pi)

@@ -82,7 +82,7 @@ def recognise(pieces: Pieces, wanted: str | None, by_name: bool = True) -> tuple
     said, way_out = (
         ("its name", f"rename it to .{recognised.endings[0]}") if by_name else (_OPTION, f"{_OPTION} {recognised.name}")
     )
-    message = f"file whose content is {recognised.title}, not {promised.title} as {said} promises, and read as such"
+    message = f"file whose content is {recognised.title}, not {promised.title} as {said} says, and read as such"
     return recognised, (Notice("wrong_suffix", 1, message, way_out),)
 
 

@@ -29,7 +29,7 @@ VERTICES = (
     *("kappa_2_fit", "dir_1_fit", "dir_2_fit", "condition_fit", "shape_index_ring", "curvedness_ring"),
     *("shape_index_corrected", "curvedness_corrected", "shape_index_fit", "curvedness_fit"),
     *("willmore_ring", "willmore_corrected", "willmore_fit", "helfrich_corrected", "K_sigma", "h_sigma"),
-    *("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_curvature_index"),
+    *("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_index"),
 )
 EDGES = ("edge_length", "theta", "edge_H_vec", "H_sin", "H_theta", "H_tan", "kappa_across", "beta", "delaunay_defect")
 FACES = (
@@ -43,7 +43,7 @@ TOTALS = (
     *("area", "volume", "K", "kappa_g", "A_vec", "H_vec", "H_sin", "H_theta", "H_tan", "K_plus", "K_minus", "K_abs"),
     *("willmore", "willmore_hks", "willmore_perp", "willmore_normal", "willmore_conformal", "dirichlet"),
     *("helfrich", "willmore_ring", "willmore_corrected", "willmore_fit", "helfrich_corrected"),
-    *("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_curvature_index"),
+    *("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_index"),
 )
 
 

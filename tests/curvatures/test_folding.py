@@ -29,7 +29,7 @@ def test_each_index_is_its_definition_vertex_by_vertex(name: str) -> None:
             sums["K_positive"] += K if K > 0 else 0.0
             sums["K_negative"] += K if K < 0 else 0.0
             sums["K_rectified"] += abs(K)
-            sums["intrinsic_curvature_index"] += K / FOUR_PI if K > 0 else 0.0
+            sums["intrinsic_index"] += K / FOUR_PI if K > 0 else 0.0
         if not math.isnan(h):
             sums["H_rectified"] += h * area
         if not (math.isnan(h) or math.isnan(density)):
@@ -46,7 +46,7 @@ def test_each_index_is_its_definition_vertex_by_vertex(name: str) -> None:
 def test_a_sphere(radius: float) -> None:
     given = of_sample("icosphere", size=2562)
     totals = curvcli.analyze((given.points * radius, given.faces), "folding").totals
-    assert totals["intrinsic_curvature_index"] == pytest.approx(1.0, abs=1e-12)
+    assert totals["intrinsic_index"] == pytest.approx(1.0, abs=1e-12)
     assert totals["K_positive"] == pytest.approx(FOUR_PI, abs=1e-11)
     assert totals["K_negative"] == 0.0
     assert totals["H_rectified"] == pytest.approx(2 * FOUR_PI * radius, rel=1e-3)
@@ -79,7 +79,7 @@ def test_a_torus_by_quadrature() -> None:
         "K_rectified": 2 * FOUR_PI,
         "H_rectified": integral(lambda k, other: abs(k + other)),
         "folding_index": integral(lambda k, other: k * (k - abs(other))) / FOUR_PI,
-        "intrinsic_curvature_index": 1.0,
+        "intrinsic_index": 1.0,
     }
     assert {key: totals[key] for key in exact} == pytest.approx(exact, rel=0.01)
 

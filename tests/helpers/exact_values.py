@@ -74,7 +74,14 @@ class Vertices:
             "willmore_perp": g["h_perp"] ** 2 * g["A"],
             "willmore_normal": g["h_normal"] ** 2 * g["A"],
             "willmore_conformal": g["bobenko"] / 2,
+            "K_positive": np.maximum(g["K"] * inside, 0),
+            "K_negative": np.minimum(g["K"] * inside, 0),
+            "K_rectified": np.abs(g["K"] * inside),
+            "H_rectified": g["h"] * g["A"],
+            "intrinsic_index": np.maximum(g["K"] * inside, 0) / (4 * math.pi),
         }
+        larger, smaller = principal(g["h"], g["K_over_A"])
+        found["folding_index"] = larger * (larger - np.abs(smaller)) * g["A"] / (4 * math.pi)
         found["kappa_1"], found["kappa_2"] = principal(signed, g["K_over_A"])
         found["curvedness"] = np.sqrt((found["kappa_1"] ** 2 + found["kappa_2"] ** 2) / 2)
         for column in ODD & found.keys():
@@ -117,6 +124,8 @@ def length_exponents() -> dict[str, int]:
         **dict.fromkeys(("K", "kappa_g", "K_plus", "K_minus", "K_abs", "willmore", "willmore_hks"), 0),
         **dict.fromkeys(("willmore_perp", "willmore_normal", "willmore_conformal"), 0),
         **dict.fromkeys(("helfrich", "reduced_volume", "reduced_area_difference"), 0),
+        **dict.fromkeys(("K_positive", "K_negative", "K_rectified", "folding_index", "intrinsic_index"), 0),
+        "H_rectified": 1,
     }
 
 
@@ -144,6 +153,9 @@ def totals(name: str) -> dict[str, Any]:
     }
     sizes = ("H_theta", "H_sin", "H_tan")
     found |= {key: math.fsum(x for x in lengths[key] if x == x) if orientable else None for key in sizes}
+    vertices = Vertices(name).columns()
+    folding = ("K_positive", "K_negative", "K_rectified", "H_rectified", "folding_index", "intrinsic_index")
+    found |= {key: math.fsum(x for x in vertices[key] if x == x) for key in folding}
     vesicle = known["topology"]["closed"] and orientable and known["topology"]["n_components"] == 1
     radius = math.sqrt(found["area"] / (4 * math.pi))
     return found | {

@@ -56,7 +56,8 @@ def write_fe(
     _write_bodies(stream, len(points), ends, signed, corners, sizes)
     if lost := int(np.count_nonzero(~np.isfinite(points).all(axis=1))):
         message = "[position|positions] of vertices without faces that [is|are] not finite, written as the origin"
-        notices.append(Notice("positions_at_origin", lost, pluralize(lost, message)))
+        hint = "remove these vertices from the mesh"
+        notices.append(Notice("positions_at_origin", lost, pluralize(lost, message), hint))
     return tuple(notices)
 
 
@@ -72,7 +73,8 @@ def _simple(
     keep[row[corners == corners[following]]] = False
     dropped = np.flatnonzero(~keep)
     message = "[face|faces] with a vertex twice, not written: a facet of the Evolver is a loop of edges"
-    notices = [Notice.at("repeated_corner_faces", dropped, message)] if len(dropped) else []
+    hint = "--weld exact drops faces with two corners at one place"
+    notices = [Notice.at("repeated_corner_faces", dropped, message, hint)] if len(dropped) else []
     return corners[keep[row]], sizes[keep], notices
 
 

@@ -69,5 +69,6 @@ def parse_header(lines: SectionLines) -> DatafileHeader:
     if total := sum(ignored.values()):
         words = ", ".join(f"`{word[:30]}`" for word in list(ignored)[:5])
         message = f"[line|lines] of the header, ignored: {words}"
-        header.notices.append(Notice("ignored_statements", total, pluralize(total, message)))
+        hint = "they change no coordinate and no facet"
+        header.notices.append(Notice("ignored_statements", total, pluralize(total, message), hint))
     return header

@@ -53,7 +53,7 @@ def parse_fe(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     notices = [*header.notices, *_ignored(vertices, edges, facets)]
     if "read" in sections and (count := len(sections["read"].numbers)):
         message = pluralize(count, "[line|lines] of commands behind `read`, ignored")
-        notices.append(Notice("ignored_statements", count, message))
+        notices.append(Notice("ignored_statements", count, message, "the mesh is read as it stands before them"))
     return MeshFile(
         "fe",
         np.ascontiguousarray(vertices.values.reshape(-1, 3).T),
@@ -130,4 +130,5 @@ def _ignored(*sections: ElementRows) -> list[Notice]:
     message = (
         "[element|elements] with attributes; scalars that the header declares and `color` are kept, others ignored"
     )
-    return [Notice("ignored_attributes", count, pluralize(count, message))]
+    hint = "they change no coordinate and no facet"
+    return [Notice("ignored_attributes", count, pluralize(count, message), hint)]

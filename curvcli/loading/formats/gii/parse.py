@@ -43,7 +43,7 @@ def parse_gifti(data: bytes, *, max_faces: int | None = None) -> MeshFile:
         notices.append(Notice("transform_ignored", 1, "matrix of a coordinate system, not applied", hint))
     if ignored := len(others) - len(fitting):
         message = pluralize(ignored, "[array|arrays] without one value per vertex, ignored")
-        notices.append(Notice("ignored_arrays", ignored, message))
+        notices.append(Notice("ignored_arrays", ignored, message, "they belong to another surface"))
     xyz = np.ascontiguousarray(points.values.T, np.float64)
     return MeshFile("gii", xyz, corners, vertex_properties=properties, vertex_labels=labels, notices=tuple(notices))
 

@@ -47,7 +47,9 @@ def parse_glb(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
     notices = []
     if rest := len(data) - length:
         message = pluralize(rest, "[byte|bytes] after the announced length, ignored")
-        notices.append(Notice("trailing_data", rest, message))
+        notices.append(
+            Notice("trailing_data", rest, message, "the mesh is complete; export it again if it should hold more")
+        )
     return _parse(tree, binary, "glb", len(data), max_faces, notices)
 
 
@@ -270,4 +272,4 @@ def _ignored(tree: Tree, parts: dict[int, list[Primitive]]) -> list[Notice]:
     if not found:
         return []
     message = f"parts of the scene that are no triangles at rest, ignored: {', '.join(found)}"
-    return [Notice("ignored_parts", others + moving + skins, message)]
+    return [Notice("ignored_parts", others + moving + skins, message, "export a still mesh to have them")]
