@@ -27,6 +27,7 @@ SCALES = {"2^-30": 2.0**-30, "1e-9": 1e-9, "1": 1.0, "1e9": 1e9, "2^30": 2.0**30
 NO_EXACT_VALUE = {"status", "shape_index", "dir_1", "dir_2"}
 # On the minimal surface |H| is rounding alone: its size is compared absolutely, and its quotients mean nothing.
 MINIMAL = {"h", "h_signed", "h_hks", "h_perp", "willmore", "willmore_hks", "willmore_perp", "H_vec"}
+MINIMAL |= {"H_rectified", "folding_index"}
 NORMAL = {"h_normal", "willmore_normal"}
 # Differences of angles, which vanish on spheres: their size is that of the angles.
 ANGLES = {"willmore_conformal", "K_plus", "K_minus", "K_abs", "K_comb"}
