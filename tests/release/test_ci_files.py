@@ -103,13 +103,13 @@ def test_every_option_of_check_has_an_input(action: dict[str, Any], check: Any, 
     assert options <= used
     # And each reaches the program as its own argument.
     (tmp_path / "curvcli").write_text('#!/bin/sh\n[ "$1" = check ] && printf "%s\\n" "$@" > told\nexit 0\n')
-    values = {name: f"a b {name}" for name in options - {"force", "quiet", "verbose", "output"}}
-    flags = {"quiet": "true", "verbose": "2", "output": "o p", "arguments": "--x='y z' $(id)\n-q"}
+    values = {name: f"a b {name}" for name in options - {"force", "quiet", "verbose", "output", "json"}}
+    flags = {"quiet": "true", "json": "true", "verbose": "2", "output": "o p", "arguments": "--x='y z' $(id)\n-q"}
     done = check(meshes="a b/parts/cube.obj", **values, **flags)
     assert done.returncode == 0, done.stderr
     told = (tmp_path / "told").read_text().splitlines()
     assert {f"--{name}={value}" for name, value in values.items() if value.startswith("a b")} <= set(told)
-    assert {"--force", "--quiet", "--verbose", "--output=o p", "--x=y z", "$(id)", "-q"} <= set(told)
+    assert {"--force", "--quiet", "--json", "--verbose", "--output=o p", "--x=y z", "$(id)", "-q"} <= set(told)
     assert told.count("--verbose") == 2
     assert told[-2:] == ["--", "a b/parts/cube.obj"]
 

@@ -40,9 +40,11 @@ def read_text(data: bytes) -> LabelFile:
     Errors: InputError for other tables; ValueError for text that is not UTF-8.
     """
     text = data.decode("utf-8-sig")
-    first = next(filter(None, map(str.strip, io.StringIO(text, newline=None))), "")
+    filled = filter(None, map(str.strip, io.StringIO(text, newline=None)))
+    first, second = next(filled, ""), next(filled, "").split()
     separator = next((one for one in "\t,;" if one in first), None)
-    if separator is None and first and first.split()[0].lower() in _INDEX and " " in first:
+    indexed = len(second) > 1 and _is_number(second[0])
+    if separator is None and indexed and first.split()[0].lower() in _INDEX and " " in first:
         return _table([line.split() for line in io.StringIO(text, newline=None) if line.strip()])
     if separator is None:
         numbers = _numbers(text)
