@@ -78,9 +78,9 @@ def commands() -> str:
     return ";\n".join(lines) + ";\nquit 0\n"
 
 
-def ask(given: Mesh, folder: Path) -> Answer:
+def ask(given: Mesh, folder: Path, header: str = "") -> Answer:
     assert PROGRAM is not None
-    (folder / "mesh.fe").write_text(datafile(given))
+    (folder / "mesh.fe").write_text(header + datafile(given))
     done = subprocess.run(
         [PROGRAM, "-x", "mesh.fe"], input=commands(), capture_output=True, text=True, cwd=folder, timeout=120
     )
@@ -183,3 +183,19 @@ def test_the_datafile_of_a_tetrahedron() -> None:
     rows = [[int(part) for part in line.split()] for line in text.partition("faces\n")[2].splitlines()]
     used = sorted(edge for _, *edges in rows for edge in edges)
     assert used == [-6, -5, -4, -3, -2, -1, 1, 2, 3, 4, 5, 6]
+
+
+@pytest.mark.parametrize("name", ["irregular_ellipsoid", "jittered_sphere", "jittered_genus_2"])
+@pytest.mark.parametrize("c0", [0.7, -0.7])
+def test_spontaneous_curvature_has_the_sign_and_the_factor_of_the_evolver(name: str, c0: float, tmp_path: Path) -> None:
+    """Its `h_zero` is that of the average of κ₁ and κ₂, half of c₀, and its perpendicular H is h_perp.
+
+    helfrich = ½(h_signed − c₀)²A differs from ½(h_perp − c₀)²A by ½(h² − h_perp²)A − c₀(h_signed − h_perp)A.
+    """
+    theirs = 2 * ask(BODIES[name](), tmp_path, f"parameter h_zero = {c0 / 2}\n").totals["star_perp_sq_mean_curvature"]
+    vertices = ours(name).vertices
+    area, h, perp = vertices["A"], vertices["h_signed"], vertices["h_perp"]
+    assert (0.5 * (perp - c0) ** 2 * area).sum() == pytest.approx(theirs, rel=1e-12)
+    helfrich = curvcli.analyze(tuple(BODIES[name]()), "helfrich", settings={"helfrich.c0": c0}).totals["helfrich"]
+    between = (0.5 * (h**2 - perp**2) * area - c0 * (h - perp) * area).sum()
+    assert helfrich - between == pytest.approx(theirs, rel=1e-12)
