@@ -90,12 +90,16 @@ def _bend(surface: Surface, faces: Index, face: Index, neighbour: Index, against
     """(E,) unsigned dihedral angle between two faces of each edge, 0 where they continue in a plane."""
     angle = np.empty(len(face))
     for block in slices(len(face)):
-        here, there = (np.array(triangles(surface.xyz, faces[side[block]]).normal) for side in (face, neighbour))
+        own_normal, neighbour_normal = (
+            np.array(triangles(surface.xyz, faces[side[block]]).normal) for side in (face, neighbour)
+        )
         with np.errstate(divide="ignore", invalid="ignore"):
-            here, there = (normal / np.sqrt(dot(normal, normal)) for normal in (here, there))
-        there = np.where(against[block], -there, there)
-        across = np.array(cross(here, there))
-        angle[block] = np.arctan2(np.sqrt(dot(across, across)), dot(here, there))
+            own_normal, neighbour_normal = (
+                normal / np.sqrt(dot(normal, normal)) for normal in (own_normal, neighbour_normal)
+            )
+        neighbour_normal = np.where(against[block], -neighbour_normal, neighbour_normal)
+        across = np.array(cross(own_normal, neighbour_normal))
+        angle[block] = np.arctan2(np.sqrt(dot(across, across)), dot(own_normal, neighbour_normal))
     return angle
 
 

@@ -20,7 +20,7 @@ from ..support.words import counted
 from .map_differential import Stretch, stretch
 from .map_orientation import orientation
 from .notices import out_of_range
-from .totals import lost
+from .totals import overflows
 
 if TYPE_CHECKING:
     from .configuration import Configuration
@@ -167,7 +167,7 @@ class SurfaceMap:
             ("gradient", self._gradient, self.gradient.T),
         ]
         counts = Counter({name: int(np.count_nonzero(np.isnan(at) & ~np.isnan(own))) for name, own, at in columns})
-        counts.update({name: lost(unit, total, 2) for name, (unit, total) in self._sums.items()})
+        counts.update({name: overflows(unit, total, 2) for name, (unit, total) in self._sums.items()})
         return counts
 
     @cached_property

@@ -31,12 +31,12 @@ def of_surface(surface: Surface, columns: Mapping[str, Any]) -> list[Notice]:
     return [notice for notice in _all(surface, columns) if notice.count]
 
 
-def out_of_range(lost: Mapping[str, int]) -> list[Notice]:
-    """Notice of results beyond the range of doubles in the file's unit; lost: the count by column and total."""
-    names = [name for name, count in lost.items() if count]
+def out_of_range(overflows: Mapping[str, int]) -> list[Notice]:
+    """Notice of results beyond the range of doubles in the file's unit; overflows: the count by column and total."""
+    names = [name for name, count in overflows.items() if count]
     if not names:
         return []
-    count = sum(lost.values())
+    count = sum(overflows.values())
     message = pluralize(count, "[result|results] beyond the range of doubles in the file's unit, left undefined: ")
     hint = "scale the mesh to an extent near 1: angles and energies stay, lengths and areas become numbers"
     return [Notice("out_of_range", count, message + ", ".join(names), hint)]

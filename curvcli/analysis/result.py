@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 from functools import cached_property
@@ -34,7 +33,7 @@ from .columns import Columns, named
 from .request import Request
 from .scale_notices import beside, of_stars, unscaled
 from .shares import Partition
-from .totals import columns_for, lost, lost_totals, summed, totals
+from .totals import columns_for, overflow_counts, summed, totals
 
 if TYPE_CHECKING:
     from .configuration import Configuration
@@ -212,14 +211,14 @@ class Result:
         if self.regions is None:
             return []
         area, borders = self.columns["face_area"], self._borders
-        parts = Partition(self.surface, self.regions.face, self.regions.count, area, borders)
+        partition = Partition(self.surface, self.regions.face, self.regions.count, area, borders)
         split = {name: self._split(name) for name in self._totalled if splits_itself(name, self.settings)}
-        return parts.shares({name: self.columns[name] for name in self._totalled}, split, self.settings)
+        return partition.shares({name: self.columns[name] for name in self._totalled}, split, self.settings)
 
     def _split(self, name: str) -> tuple[Floats, Floats]:
         """Parts of the faces in a measure that its pass splits, and the sizes of their terms."""
-        plain, at, scale = name.partition(AT_SCALE)
-        step = passes.provider(plain)
+        base_name, at, scale = name.partition(AT_SCALE)
+        step = passes.provider(base_name)
         names = needs(step, self.request.area)
         at_scale = [need + at + scale if passes.depends_on_scale(need) else need for need in names]
         self.include(at_scale)
@@ -262,22 +261,10 @@ class Result:
         notices = findings.of_surface(self.surface, self.columns)
         asked = self.settings.scales != DEFAULTS.scales
         notices += of_stars(self.surface, self.columns, self.chosen, self.totals, asked)
-        notices += findings.out_of_range(self._lost)
+        notices += findings.out_of_range(overflow_counts(self.surface, self.columns, self.chosen))
         if self.cut is not None and self.regions is not None:
             notices += region_notices(self.cut.surface, self.cut_groups, self.regions)
         return notices
-
-    @property
-    def _lost(self) -> Counter[str]:
-        """Number of values of each chosen column and total that are beyond the range of doubles in the file's unit."""
-        counts: Counter[str] = Counter()
-        if self.surface.unit_exponent:
-            for quantity in map(passes.quantity, self.chosen):
-                if not quantity.labels:
-                    values = self.columns[quantity.name]
-                    counts[quantity.stem] += lost(self.surface, values, quantity.length_exponent)
-            counts.update(lost_totals(self.surface, self.columns))
-        return counts
 
 
 def or_null(value: Any) -> Any:

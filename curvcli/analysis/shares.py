@@ -88,10 +88,10 @@ class Partition:
         exponents = quantity.length_exponent, quantity.mean_degree
         return Share(str(quantity.total), *exponents, values, total, bound, quantity.energy)
 
-    def _split_by_pass(self, quantity: Quantity, column: Floats, parts: Floats, sizes: Floats) -> Share:
+    def _split_by_pass(self, quantity: Quantity, column: Floats, face_values: Floats, sizes: Floats) -> Share:
         """Shares of a measure of vertices from the parts of the faces; a mean over the n faces of a star is known to
         (n + 3)ε of its terms, and so is the square of its difference from another number, twice."""
-        values, total = self._faces.sum(parts), Segments(None, 1, len(column)).sum(column)[0]
+        values, total = self._faces.sum(face_values), Segments(None, 1, len(column)).sum(column)[0]
         stars = 2 * (int(self.surface.degree.max()) + 3) * EPSILON * float(sizes.sum())
         bound = float(rounding(self.surface, Segments(None, 1, len(sizes)).sum(sizes))[0]) + stars
         if self._is_null(quantity, column):

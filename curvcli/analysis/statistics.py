@@ -100,8 +100,8 @@ class GroupedColumn:
         if percentile is not None:
             weighted, share = percentile
             return self._weighted(share) if weighted else self._quantile(share)
-        found: Floats | Ints = getattr(self, name)
-        return found
+        values: Floats | Ints = getattr(self, name)
+        return values
 
     def _reduced(self, ufunc: np.ufunc, values: Floats) -> Floats:
         """Reduction over each group that has values."""
@@ -113,9 +113,9 @@ class GroupedColumn:
 
     def _all(self, each: Floats) -> Floats:
         """(G,) from the groups that have values; NaN for the others."""
-        found = np.full(self.groups, np.nan)
-        found[self._full] = each
-        return found
+        values = np.full(self.groups, np.nan)
+        values[self._full] = each
+        return values
 
     @cached_property
     def min(self) -> Floats:
@@ -273,6 +273,6 @@ def _batches(sizes: Ints, starts: Ints) -> Iterator[_GroupsOfLikeSize]:
         groups = by_size[first:last]
         place = np.arange(int(ascending[last - 1]), dtype=np.int32)
         beyond = place >= sizes[groups, None]
-        places = starts[groups, None] + np.minimum(place, sizes[groups, None] - 1)
-        yield _GroupsOfLikeSize(groups, sizes[groups], places, beyond if beyond.any() else None)
+        rows = starts[groups, None] + np.minimum(place, sizes[groups, None] - 1)
+        yield _GroupsOfLikeSize(groups, sizes[groups], rows, beyond if beyond.any() else None)
         first = last

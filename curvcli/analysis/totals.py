@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
@@ -50,15 +51,19 @@ def totals(
     return totals_by_key
 
 
-def lost_totals(surface: Surface, columns: Mapping[str, Any]) -> list[str]:
-    """Keys of the totals of the whole surface that are defined but beyond the range of doubles in the file's unit."""
-    if not surface.unit_exponent:
-        return []
-    each = _computed(surface, surface.whole, columns)
-    return [key for key, total, length_exponent, _, _ in each if lost(surface, total, length_exponent)]
+def overflow_counts(surface: Surface, columns: Mapping[str, Any], chosen: Iterable[str]) -> Counter[str]:
+    """Number of values of each chosen column and total that are beyond the range of doubles in the file's unit."""
+    counts: Counter[str] = Counter()
+    if surface.unit_exponent:
+        for quantity in map(passes.quantity, chosen):
+            if not quantity.labels:
+                counts[quantity.stem] += overflows(surface, columns[quantity.name], quantity.length_exponent)
+        for key, total, length_exponent, _, _ in _computed(surface, surface.whole, columns):
+            counts[key] += overflows(surface, total, length_exponent) > 0
+    return counts
 
 
-def lost(surface: Surface, values: Floats, length_exponent: int) -> int:
+def overflows(surface: Surface, values: Floats, length_exponent: int) -> int:
     """Number of values that are defined but beyond the range of doubles in the file's unit."""
     if not surface.unit_exponent * length_exponent:
         return 0

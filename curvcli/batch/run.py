@@ -148,12 +148,12 @@ def _row(item: BatchItem, analysis: Result, long: bool) -> Row:
 
 
 def _statistics(analysis: Result) -> list[RowStatistics]:
-    parts: dict[str | None, RowStatistics] = {}
+    by_region: dict[str | None, RowStatistics] = {}
     for region, column, statistic, value in entries(measured(analysis)):
         name = None if region is None else escape_text(region)
-        part = parts.setdefault(name, RowStatistics(name, {}))
+        part = by_region.setdefault(name, RowStatistics(name, {}))
         part.columns.setdefault(column, {})[statistic] = value
-    return list(parts.values())
+    return list(by_region.values())
 
 
 def _hash(item: BatchItem) -> str | None:

@@ -70,8 +70,8 @@ def _key(text: str, long: bool) -> str:
         raise UsageError(f"--plot {text}: statistics of {section} are in the rows of --long only; add --long")
     if section == "totals" and not any(sign in name for sign in _WILD):
         known = [*total_exponents(), "K", "area"]
-        plain = name[:-2] if name[-2:] in ("_x", "_y", "_z") else name
-        if name not in known and plain not in known and "@" not in name and name.rpartition("_")[0] not in known:
+        stem = name[:-2] if name[-2:] in ("_x", "_y", "_z") else name
+        if name not in known and stem not in known and "@" not in name and name.rpartition("_")[0] not in known:
             known += [f"topology.{field}" for field in Topology.__struct_fields__]
             near = f"topology.{name}" if name in Topology.__struct_fields__ else name
             raise UsageError(f"--plot {text}: there is no total {name!r}{suggestion(near, known)}")

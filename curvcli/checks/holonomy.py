@@ -74,22 +74,22 @@ def _transport(surface: Surface, vertices: NDArray[np.intp], unit_normal: Vector
         active = np.arange(len(corner))
         for step in range(int(steps.max(initial=0))):
             active = active[steps[active] > step]
-            here, up = corner[active], upright[active]
+            old_corner, up = corner[active], upright[active]
             # The counterclockwise neighbour lies across the edge that enters the corner, or, for a reversed face,
             # across the edge that leaves it.
-            edge = np.where(up > 0, previous_corner(here), here)
+            edge = np.where(up > 0, previous_corner(old_corner), old_corner)
             across = twin[edge]
             same_way = tail[across] == tail[edge]
-            starts_here = tail[across] == tail[here]
-            there = np.where(starts_here, across, next_corner(across))
+            starts_here = tail[across] == tail[old_corner]
+            new_corner = np.where(starts_here, across, next_corner(across))
             span = _direction(surface, edge)
-            before = up * unit_normal[:, here // 3]
+            before = up * unit_normal[:, old_corner // 3]
             up = np.where(same_way, -up, up)
-            after = up * unit_normal[:, there // 3]
+            after = up * unit_normal[:, new_corner // 3]
             moving = vector[:, active]
             along, sideways = dot(moving, span), dot(moving, cross(before, span))
             vector[:, active] = along * span + sideways * np.array(cross(after, span))
-            corner[active], upright[active] = there, up
+            corner[active], upright[active] = new_corner, up
         angle[block] = np.arctan2(dot(cross(begin, vector), normal), dot(begin, vector))
 
     for_each(slices(len(vertices)), walk)

@@ -56,9 +56,9 @@ def partition(surface: Surface, groups: Groups, shares: Sequence[Share]) -> Iden
 def _sums(shares: Sequence[Share]) -> Iterator[tuple[str, int, float, float, float]]:
     """Name, length exponent, sum, total and bound of every scalar whose total is defined."""
     for share in shares:
-        parts = share.values.reshape(len(share.values), -1).sum(axis=0)
+        sums = share.values.reshape(len(share.values), -1).sum(axis=0)
         axes = "xyz" if share.total.ndim else [""]
-        for axis, value, total, bound in zip(axes, parts, share.total.ravel(), share.bound.ravel(), strict=True):
+        for axis, value, total, bound in zip(axes, sums, share.total.ravel(), share.bound.ravel(), strict=True):
             if not np.isnan(total):
                 name = f"{share.key}_{axis}" if axis else share.key
                 yield name, share.length_exponent, float(value), float(total), float(bound)

@@ -17,30 +17,30 @@ Completions = Callable[[click.Context, click.Parameter, str], "list[CompletionIt
 _FILES = ("MESH", "FILE", "PATH", "PATTERN", "LIST", "A", "B")
 
 
-def _listed(words: Callable[[click.Context], Iterable[str]]) -> Completions:
-    """Complete the last of a comma list by the words of a function."""
+def _listed(choices: Callable[[click.Context], Iterable[str]]) -> Completions:
+    """Complete the last item of a comma list from the choices that a function returns."""
 
-    @wraps(words)
+    @wraps(choices)
     def complete(context: click.Context, parameter: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
         from click.shell_completion import CompletionItem
 
         before, comma, last = incomplete.rpartition(",")
-        return [CompletionItem(f"{before}{comma}{word}") for word in words(context) if word.startswith(last)]
+        return [CompletionItem(f"{before}{comma}{choice}") for choice in choices(context) if choice.startswith(last)]
 
     return complete
 
 
-def _with_files(words: Callable[[click.Context], Iterable[str]]) -> Completions:
-    """Complete by the words of a function, or else a file, also behind the `=` of a word that ends with one."""
+def _with_files(choices: Callable[[click.Context], Iterable[str]]) -> Completions:
+    """Complete from the choices that a function returns, or else a file, also behind `=`."""
 
-    @wraps(words)
+    @wraps(choices)
     def complete(context: click.Context, parameter: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
         from click.shell_completion import CompletionItem
 
         _, equals, behind = incomplete.rpartition("=")
         if equals:
             return [CompletionItem(behind, type="file")]
-        near = [CompletionItem(word) for word in words(context) if word.startswith(incomplete)]
+        near = [CompletionItem(choice) for choice in choices(context) if choice.startswith(incomplete)]
         return near or [CompletionItem(incomplete, type="file")]
 
     return complete
@@ -158,7 +158,7 @@ class _Metavar(click.types.StringParamType):
 
         if self.choices[0] == "DIR":
             return [CompletionItem(incomplete, type="dir")]
-        words = [word for word in self.choices if word.islower() and word.isalpha()]
+        names = [word for word in self.choices if word.islower() and word.isalpha()]
         if self.choices[0] in _FILES:
-            return _with_files(lambda context: words)(ctx, param, incomplete)
-        return _listed(lambda context: words)(ctx, param, incomplete)
+            return _with_files(lambda context: names)(ctx, param, incomplete)
+        return _listed(lambda context: names)(ctx, param, incomplete)

@@ -38,8 +38,8 @@ def configure(context: click.Context, given: str | None, find: Find, without: bo
     """
     if without and given is not None:
         raise UsageError("--config and --no-config exclude each other")
-    here = _here()
-    path = given or (None if without or here is None else nearest(here))
+    folder = _here()
+    path = given or (None if without or folder is None else nearest(folder))
     if path is None:
         return
     tables = read(path)

@@ -13,7 +13,7 @@ OWN, SHARED = "curvcli.toml", "pyproject.toml"
 _REPOSITORY = ".git"
 
 
-def search(here: str, table: Callable[[str], Any]) -> str | None:
+def search(folder: str, table: Callable[[str], Any]) -> str | None:
     """The nearest curvcli.toml, or pyproject.toml with [tool.curvcli], in a folder or one above it.
 
     The search ends at the root of the repository, else at the home folder, and before a world-writable folder above,
@@ -21,16 +21,16 @@ def search(here: str, table: Callable[[str], Any]) -> str | None:
     """
     home = os.path.realpath(os.path.expanduser("~"))
     while True:
-        own, shared = (os.path.join(here, name) for name in (OWN, SHARED))
+        own, shared = (os.path.join(folder, name) for name in (OWN, SHARED))
         if os.path.isfile(own):
             return own
         if os.path.isfile(shared) and _has_table(shared, table):
             return shared
-        above = os.path.dirname(here)
-        ends = os.path.lexists(os.path.join(here, _REPOSITORY)) or os.path.realpath(here) == home
-        if ends or above == here or _anybody_writes(above):
+        above = os.path.dirname(folder)
+        ends = os.path.lexists(os.path.join(folder, _REPOSITORY)) or os.path.realpath(folder) == home
+        if ends or above == folder or _anybody_writes(above):
             return None
-        here = above
+        folder = above
 
 
 def _anybody_writes(folder: str) -> bool:

@@ -24,7 +24,12 @@ def stem(mesh: str, windows: bool = os.name == "nt") -> str:
     if whole in ("", os.curdir, os.pardir):
         whole = os.path.basename(os.path.abspath(mesh)) or "_"
     name = whole
-    kept = {end for one in input_formats().values() if whole.lower().startswith(one.starts) for end in one.endings}
+    kept = {
+        end
+        for input_format in input_formats().values()
+        if whole.lower().startswith(input_format.starts)
+        for end in input_format.endings
+    }
     for suffix in ("gz", *suffixes()):
         if suffix not in kept and name.lower().endswith(f".{suffix}"):
             name = name[: -len(suffix) - 1]

@@ -139,11 +139,11 @@ def evaluate(
     have |= _evaluate(passes, surface, unscaled | _shared(passes, wanted - unscaled, area), area, settings, have)
     for scale in settings.scales:
         suffix = AT_SCALE + scale.name
-        here = {name.removesuffix(suffix) for name in wanted if name.endswith(suffix)}
-        if here:
+        scaled_names = {name.removesuffix(suffix) for name in wanted if name.endswith(suffix)}
+        if scaled_names:
             same = {k: column for k, column in have.items() if AT_SCALE not in k and not passes.depends_on_scale(k)}
-            scaled = _evaluate(passes, surface, here, area, replace(settings, scales=(scale,)), same)
-            have |= {name + suffix: scaled[name] for name in here}
+            scaled = _evaluate(passes, surface, scaled_names, area, replace(settings, scales=(scale,)), same)
+            have |= {name + suffix: scaled[name] for name in scaled_names}
     clear_cache(surface)
     return {name: have[name] for name in asked}
 
@@ -204,13 +204,13 @@ def _at_vertices(
     values = {step.name: values_of(step, surface, settings) for step in run}
 
     def fill(block: slice) -> None:
-        here = {name: column[..., block] for name, column in given.items()}
+        block_columns = {name: column[..., block] for name, column in given.items()}
         some: Any = SimpleNamespace(**{name: mask[block] for name, mask in masks.items()})
         for step in run:
-            results = _named(step, arguments(step, some, here, area), values[step.name])
+            results = _named(step, arguments(step, some, block_columns, area), values[step.name])
             for name, part in results.items():
                 columns[name][..., block] = part
-            here |= results
+            block_columns |= results
 
     for_each(slices(n, _VERTICES), fill)
     return columns

@@ -40,10 +40,10 @@ def _of_faces(
     corner = surface.faces.ravel()
     bent = np.bincount(corner, third * np.abs(own), surface.n_vertices)[corner] > 0
     with np.errstate(over="ignore", invalid="ignore"):
-        parts = 0.5 * third * np.where(bent, h_signed[corner] - own, h[corner]) ** 2
+        terms = 0.5 * third * np.where(bent, h_signed[corner] - own, h[corner]) ** 2
         sizes = 0.5 * third * (h[corner] + np.abs(own)) ** 2
-    sizes[np.isnan(parts)] = 0.0
-    return np.nansum(parts.reshape(-1, 3), axis=1), sizes.reshape(-1, 3).sum(axis=1)
+    sizes[np.isnan(terms)] = 0.0
+    return np.nansum(terms.reshape(-1, 3), axis=1), sizes.reshape(-1, 3).sum(axis=1)
 
 
 def _bending(

@@ -156,8 +156,8 @@ def delaunay_defect(surface: Surface, corner_angle: VectorColumn) -> Column:
 
     def add(block: slice) -> None:
         edges = surface.edges.inner_edges(block)
-        one, other = (corner_angle[(side % 3 + 2) % 3, side // 3] for side in (edges.half_edge, edges.twin))
-        defect[edges.where] = (one - np.pi) + other
+        angle, twin_angle = (corner_angle[(side % 3 + 2) % 3, side // 3] for side in (edges.half_edge, edges.twin))
+        defect[edges.where] = (angle - np.pi) + twin_angle
 
     for_each(slices(len(surface.edges.pairs[0]), EDGES_PER_BLOCK), add)
     return defect

@@ -116,11 +116,13 @@ def _setting(function: str, parameter: inspect.Parameter, described: Setting) ->
     place = f"pass {function}: the default of {parameter.name}"
     given = parameter.annotation
     empty = given is inspect.Parameter.empty
-    words = set(re.findall(r"\w+", given if isinstance(given, str) else getattr(given, "__name__", "") or str(given)))
-    words |= set() if isinstance(given, str) else set(re.findall(r"\w+", str(given)))
-    kinds = [kind for kind in _EXPECTED if kind in ({type(parameter.default).__name__} if empty else words)]
+    type_names = set(
+        re.findall(r"\w+", given if isinstance(given, str) else getattr(given, "__name__", "") or str(given))
+    )
+    type_names |= set() if isinstance(given, str) else set(re.findall(r"\w+", str(given)))
+    kinds = [kind for kind in _EXPECTED if kind in ({type(parameter.default).__name__} if empty else type_names)]
     if len(kinds) != 1:
         raise UsageError(f"{place} is {parameter.default!r}, expected a type among {', '.join(_EXPECTED)}")
-    by_region = not empty and not words.isdisjoint(_ARRAYS)
+    by_region = not empty and not type_names.isdisjoint(_ARRAYS)
     setting = replace(described, name=parameter.name, kind=kinds[0], by_region=by_region)  # type: ignore[arg-type]
     return replace(setting, default=setting.convert(parameter.default, place))

@@ -153,8 +153,8 @@ class _HalfEdges:
 
     def summed(self, at_tail: Floats, at_head: Floats) -> Iterator[tuple[Index, Floats]]:
         """Both ends of every edge, each with the sum of the shares (k, m) centred there."""
-        for end, here in ((self.a, self.forward), (self.b, ~self.forward)):
-            yield end, np.add.reduceat(np.where(here, at_tail, at_head), self.start, axis=1)
+        for end, tail_mask in ((self.a, self.forward), (self.b, ~self.forward)):
+            yield end, np.add.reduceat(np.where(tail_mask, at_tail, at_head), self.start, axis=1)
 
 
 def _sides(surface: Surface) -> Iterator[_HalfEdges]:

@@ -59,9 +59,9 @@ class Boundary:
     @cached_property
     def corner(self) -> Rows:
         """(n,) a corner at the vertex, in the face at the edge that leaves it (at an open end, arrives)."""
-        there = np.where(self.half_edge < 0, np.roll(self.half_edge, 1), self.half_edge)
+        half_edge = np.where(self.half_edge < 0, np.roll(self.half_edge, 1), self.half_edge)
         at_tail = self.forward == (self.half_edge >= 0)
-        return np.where(at_tail, there, next_corner(there))
+        return np.where(at_tail, half_edge, next_corner(half_edge))
 
 
 class Fans:

@@ -125,10 +125,10 @@ def _meet(low: Floats, high: Floats, first: Rows, second: Rows) -> Mask:
 def _touching(curves: Curves, a: Rows, b: Rows) -> Mask:
     """(k,) mask of the pairs of curves with a vertex at the same position."""
     order = np.lexsort(curves.xyz + 0.0)
-    here, label = curves.xyz[:, order], curves.label[order]
+    xyz, label = curves.xyz[:, order], curves.label[order]
     result: set[tuple[int, int]] = set()
     for step in range(1, curves.size):
-        same = (here[:, step:] == here[:, :-step]).all(axis=0)
+        same = (xyz[:, step:] == xyz[:, :-step]).all(axis=0)
         if not same.any():
             break
         at = np.flatnonzero(same)

@@ -123,9 +123,9 @@ def _distinct(numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np
     if largest > len(numbers) + (1 << 16):
         known = numbers >= 0
         names, codes = np.unique(numbers[known], return_inverse=True)
-        places = np.full(len(numbers), -1, np.int32)
-        places[known] = codes
-        return names, places
+        indices = np.full(len(numbers), -1, np.int32)
+        indices[known] = codes
+        return names, indices
     present = np.bincount(numbers + 1, minlength=largest + 2)[1:] > 0
     place = np.append(np.cumsum(present, dtype=np.int32) - np.int32(1), np.int32(-1))
     return np.flatnonzero(present), place[numbers]  # the last place stands for -1

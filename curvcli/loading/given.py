@@ -66,7 +66,7 @@ def _of_blocks(given: Any) -> MeshFile:
         sizes.append(np.array([len(row) for row in rows], np.int64))
         kinds.append(np.full(len(rows), kind, np.uint8))
     cells = CellLists(np.concatenate(corners), np.concatenate(sizes))
-    data = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in given.cell_data.items()}
+    data = {name: np.concatenate([np.asarray(part) for part in blocks]) for name, blocks in given.cell_data.items()}
     numbers, names = data.get("gmsh:physical"), getattr(given, "field_data", None) or {}
     if numbers is not None and "groups" not in data:
         groups = {int(entry[0]): name for name, entry in names.items() if len(entry) == 2 and int(entry[1]) == 2}
@@ -76,13 +76,13 @@ def _of_blocks(given: Any) -> MeshFile:
 
 def _kind(name: str) -> int:
     """Type of VTK for a type of meshio."""
-    plain = name.lower().removeprefix("vtk_lagrange_")
+    shape = name.lower().removeprefix("vtk_lagrange_")
     if name in _STRAIGHT:
         return _STRAIGHT[name]
-    if plain.startswith("polygon"):
+    if shape.startswith("polygon"):
         return _STRAIGHT["polygon"]
     for start, kind in (("line", _CURVED_LINE), ("curve", _CURVED_LINE), ("tri", _CURVED_FACE), ("quad", _CURVED_FACE)):
-        if plain.startswith(start):
+        if shape.startswith(start):
             return kind
     return _SOLID
 

@@ -56,7 +56,9 @@ def known_suffix(path: str) -> str | None:
     suffix, name = suffix_of(path), os.path.basename(path).lower()
     if suffix in suffixes() or suffix in _WAYS_OUT:
         return suffixes().get(suffix)
-    return next((one.name for one in input_formats().values() if name.startswith(one.starts)), None)
+    return next(
+        (input_format.name for input_format in input_formats().values() if name.startswith(input_format.starts)), None
+    )
 
 
 def suffix_of(path: str) -> str:

@@ -136,10 +136,10 @@ def classify(surface: Surface, groups: Groups) -> Classification:
 def duplicate_vertices(surface: Surface) -> NDArray[np.int64]:
     """(n,) indices of the referenced vertices beyond the first at exactly the same position."""
     if surface.cut_from is not None:  # the cut surface has several vertices at one position
-        there = surface.cut_from
-        again = np.zeros(there.surface.n_vertices, bool)
-        again[duplicate_vertices(there.surface)] = True
-        return np.flatnonzero(again[there.vertex])
+        original = surface.cut_from
+        again = np.zeros(original.surface.n_vertices, bool)
+        again[duplicate_vertices(original.surface)] = True
+        return np.flatnonzero(again[original.vertex])
     shared = _shared_keys(lambda: position_keys(surface.xyz_given))
     suspects = np.flatnonzero(shared & surface.referenced)
     first, _ = weld_exact(surface.xyz_given[:, suspects])

@@ -36,8 +36,8 @@ class Exports:
             self.points.copy(),
             self.faces.astype(np.int64),
             process=False,
-            vertex_attributes=self._data("vertex", words=True),
-            face_attributes=self._data("polygon", words=True),
+            vertex_attributes=self._data("vertex", names=True),
+            face_attributes=self._data("polygon", names=True),
         )
 
     def to_pyvista(self) -> Any:
@@ -51,7 +51,7 @@ class Exports:
             raise MissingExtraError("to_pyvista needs pyvista: `pip install 'curvcli[pictures]'`") from None
         mesh = pyvista.PolyData.from_regular_faces(self.points.copy(), self.faces.astype(np.int64))
         for element, data in (("vertex", mesh.GetPointData()), ("polygon", mesh.GetCellData())):
-            for name, values in self._data(element, words=True).items():
+            for name, values in self._data(element, names=True).items():
                 data.AddArray(_vtk_array(name, values))
         return mesh
 
@@ -67,25 +67,25 @@ class Exports:
         return meshio.Mesh(
             self.points.copy(),
             [("triangle", self.faces.astype(np.int64))],
-            point_data=self._data("vertex", words=False),
-            cell_data={name: [values] for name, values in self._data("polygon", words=False).items()},
+            point_data=self._data("vertex", names=False),
+            cell_data={name: [values] for name, values in self._data("polygon", names=False).items()},
         )
 
-    def _data(self, element: str, *, words: bool) -> dict[str, NDArray[Any]]:
-        """Properties and labels of vertices, or of the polygon of each face. words: names of labels, not codes."""
+    def _data(self, element: str, *, names: bool) -> dict[str, NDArray[Any]]:
+        """Properties and labels of vertices, or of the polygon of each face. names: names of labels, not codes."""
         if self.file is None:
             return {}
         given: dict[str, NDArray[Any]] = getattr(self.file, f"{element}_properties")
         labels: dict[str, Labels] = getattr(self.file, f"{element}_labels")
         data = {name: np.array(values) for name, values in given.items()}
-        data |= {name: _words(label) if words else label.codes.copy() for name, label in labels.items()}
+        data |= {name: _label_names(label) if names else label.codes.copy() for name, label in labels.items()}
         if element == "vertex" or self.polygon is None:
             return data
         return {name: values[self.polygon] for name, values in data.items()}
 
 
-def _words(labels: Labels) -> NDArray[np.str_]:
-    """The word of each element, empty for none."""
+def _label_names(labels: Labels) -> NDArray[np.str_]:
+    """Name of the label of each element, empty for none."""
     return np.array([*labels.names, ""])[labels.codes]
 
 

@@ -119,11 +119,11 @@ def _walk(faces: Index, corners: Any, size: int, vertices: NDArray[np.intp], low
     every = np.bitwise_or.reduce(bit)
     begin = every ^ np.bitwise_or.reduce(next_face, axis=0)
     ends = begin != 0
-    here = (begin & -begin) | ~ends
-    met = here.copy()
+    front = (begin & -begin) | ~ends
+    met = front.copy()
     for _ in range(size - 1):
-        here = np.bitwise_or.reduce(next_face * ((here & bit[:, None]) != 0), axis=0)
-        met |= here
+        front = np.bitwise_or.reduce(next_face * ((front & bit[:, None]) != 0), axis=0)
+        met |= front
     # If two faces leave for one vertex, or arrive from one, a position has two bits, or the walk does not end.
     single = (next_face & (next_face - 1)) == 0
     fan = (met == every) & single.all(axis=0) & ((next_face == 0).any(axis=0) == ends)

@@ -215,10 +215,10 @@ def vertex_components(faces: Index, lowest: Index, referenced: Mask) -> tuple[in
     """
     parent, roots = lowest.copy(), []
     for block in slices(len(parent)):  # pointers lead down, to vertices with a final pointer
-        here = parent[block]
-        while not np.array_equal(further := parent.take(here), here):
-            here[:] = further
-        own = here == np.arange(block.start, block.stop, dtype=np.int32)
+        pointers = parent[block]
+        while not np.array_equal(further := parent.take(pointers), pointers):
+            pointers[:] = further
+        own = pointers == np.arange(block.start, block.stop, dtype=np.int32)
         roots.append(np.flatnonzero(own & referenced[block]) + block.start)
     ends = np.concatenate(roots)
     count, number = len(ends), np.zeros_like(parent)

@@ -255,10 +255,10 @@ class Distribution:
 def distribution(axes: Sequence[Axis], number: int) -> Distribution:
     """The distribution of one mesh over one or two axes."""
     shape = [each.bins + 2 for each in axes]
-    places = [each.place(number) for each in axes]
+    bins = [each.place(number) for each in axes]
     area = axes[0].samples[number].area
-    known = np.logical_and.reduce([place >= 0 for place in places])
-    flat = np.ravel_multi_index([place[known] for place in places], shape)
+    known = np.logical_and.reduce([place >= 0 for place in bins])
+    flat = np.ravel_multi_index([place[known] for place in bins], shape)
     size = math.prod(shape)
     vertices = np.bincount(flat, minlength=size).astype(np.float64).reshape(shape)
     areas = np.zeros(size)

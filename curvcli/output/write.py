@@ -178,7 +178,7 @@ def check_appearance(appearance: Appearance, chosen: list[str], suffixes: Iterab
         if isinstance(output_format, DocumentFormat) and output_format.kind == "picture" and output_format.shows
     ]
     if pictures:
-        count = max(_panels(one, appearance, chosen) for one in pictures)
+        count = max(_panels(picture, appearance, chosen) for picture in pictures)
         check_picture_options(
             appearance.picture,
             count,

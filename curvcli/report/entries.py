@@ -58,10 +58,10 @@ def measured(analysis: Result) -> dict[str, Any]:
     columns: Any = column_statistics(analysis)
     if names:
         columns = listed_statistics(analysis, analysis.surface.whole, names)[0]
-    parts: dict[str, Any] = {
+    sections: dict[str, Any] = {
         "totals": whole_piece(analysis).totals,
         "columns": columns,
         "regions": region_statistics(analysis),
     }
-    built: dict[str, Any] = msgspec.to_builtins(parts)
+    built: dict[str, Any] = msgspec.to_builtins(sections)
     return built

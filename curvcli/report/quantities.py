@@ -149,10 +149,10 @@ def parameters(owner: Configurable) -> list[ParameterFacts]:
 def parameter_sentence(knob: ParameterFacts) -> str:
     """A parameter in one line for people."""
     unit = "" if knob["unit"] == "1" else f" {knob['unit']}"
-    parts = [knob["description"], f"default {format_scalar(knob['default'])}{unit}"]
-    parts += ["one value, or one for each region"] * knob["by_region"]
-    parts += ["changes sign when all faces are reversed"] * (knob["parity"] == "odd")
-    return "; ".join(part for part in parts if part)
+    clauses = [knob["description"], f"default {format_scalar(knob['default'])}{unit}"]
+    clauses += ["one value, or one for each region"] * knob["by_region"]
+    clauses += ["changes sign when all faces are reversed"] * (knob["parity"] == "odd")
+    return "; ".join(clause for clause in clauses if clause)
 
 
 def _needs(name: str) -> list[str]:

@@ -76,11 +76,11 @@ def grouped_statistics(
     """
     plans: dict[bytes, Any] = {}
     area, segments = analysis.columns["star_area"], _referenced(groups, analysis.surface)
-    found: dict[str, dict[str, Floats | Ints]] = {}
+    by_column: dict[str, dict[str, Floats | Ints]] = {}
     for _, column, values in described(analysis):
         grouped = GroupedColumn(values, area, segments, plans=plans)
-        found[column] = {name: grouped.statistic(name) for name in names or REPORTED}
-    return found
+        by_column[column] = {name: grouped.statistic(name) for name in names or REPORTED}
+    return by_column
 
 
 def _referenced(groups: Groups, surface: Surface) -> Segments:

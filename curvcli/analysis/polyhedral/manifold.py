@@ -79,8 +79,8 @@ class PolyhedralManifold:
         inner, outer = self.complex.sides[inside].T
         flat = self._inward.reshape(-1, self.n)
         out, into = -flat[inner], flat[outer]
-        here, there = (self.frames[flag // (self.n + 1)] for flag in (inner, outer))
-        turn = there @ here.swapaxes(1, 2)
+        inner_frame, outer_frame = (self.frames[flag // (self.n + 1)] for flag in (inner, outer))
+        turn = outer_frame @ inner_frame.swapaxes(1, 2)
         turn -= (turn @ out[:, :, None]) @ out[:, None, :]
         rotation[inside] = turn + into[:, :, None] @ out[:, None, :]
         return rotation
@@ -95,14 +95,14 @@ class PolyhedralManifold:
             problem = f"simplex {outside[0]} does not exist" if outside else "the path is empty"
             raise UsageError(f"{problem}, expected indices from 0 to {len(self.simplices) - 1}")
         turn = np.eye(self.n)
-        for here, there in pairwise(path):
-            ridge = np.intersect1d(self.complex.ridge_of[here], self.complex.ridge_of[there])
-            if here == there or not len(ridge):
+        for simplex, neighbour in pairwise(path):
+            ridge = np.intersect1d(self.complex.ridge_of[simplex], self.complex.ridge_of[neighbour])
+            if simplex == neighbour or not len(ridge):
                 raise UsageError(
-                    f"simplices {here} and {there} share no ridge; a path goes from neighbour to neighbour"
+                    f"simplices {simplex} and {neighbour} share no ridge; a path goes from neighbour to neighbour"
                 )
             step = self.rotations[ridge[0]]
-            turn = (step if self.ridge_simplices[ridge[0], 0] == here else step.T) @ turn
+            turn = (step if self.ridge_simplices[ridge[0], 0] == simplex else step.T) @ turn
         return turn
 
     def parallel_transport(self, vectors: ArrayLike, path: Sequence[int]) -> Floats:

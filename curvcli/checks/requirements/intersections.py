@@ -48,7 +48,7 @@ def no_self_contacts(surface: Surface) -> str:
     )
 
 
-def _listed(surface: Surface, contacts: FaceContacts, kind: int, one: str, many: str) -> str:
+def _listed(surface: Surface, contacts: FaceContacts, kind: int, singular: str, plural: str) -> str:
     """Number of pairs of a kind of contact, and the first ones with a point of contact; empty for none."""
     rows = contacts.kind == kind
     count = int(np.count_nonzero(rows))
@@ -62,4 +62,4 @@ def _listed(surface: Surface, contacts: FaceContacts, kind: int, one: str, many:
     ]
     more = [] if count == len(pairs) else ["…"]
     faces = np.unique(np.concatenate([contacts.one[rows], contacts.other[rows]]))
-    return Fault(f"{counted(count, one, many)} ({'; '.join([*pairs, *more])})", FaultyElements("face", faces))
+    return Fault(f"{counted(count, singular, plural)} ({'; '.join([*pairs, *more])})", FaultyElements("face", faces))

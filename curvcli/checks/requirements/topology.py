@@ -58,8 +58,8 @@ def oriented(surface: Surface) -> str:
     if not patches:
         return ""
     first = place(surface, "face", faces[0])
-    one, many = "patch without an orientation", "patches without an orientation"
-    return located(patches, one, many, first, FaultyElements("face", faces))
+    singular, plural = "patch without an orientation", "patches without an orientation"
+    return located(patches, singular, plural, first, FaultyElements("face", faces))
 
 
 @requirement(

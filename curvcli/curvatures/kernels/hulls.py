@@ -91,10 +91,10 @@ class _Hulls:
 
     def pack(self, rows: int) -> None:
         """Remove empty rows and add spare ones. rows: number of rows in use."""
-        here = self.following[:rows] >= 0
-        most = int(here.sum(axis=0).max())
-        order = (~here).argsort(axis=0, kind="stable")[:most]
-        place = here.cumsum(axis=0) - 1
+        used = self.following[:rows] >= 0
+        most = int(used.sum(axis=0).max())
+        order = (~used).argsort(axis=0, kind="stable")[:most]
+        place = used.cumsum(axis=0) - 1
         old = np.take_along_axis(self.following, order, axis=0)
         new = np.where(old >= 0, np.take_along_axis(place, np.maximum(old, 0), axis=0), -1)
         size = 2 * most + _SPARE
@@ -112,15 +112,15 @@ class _Hulls:
 
     def seen(self, k: int, rows: int) -> Mask:
         """(rows, m) mask of the facets with direction k on their outer side."""
-        here = self.following[:rows] >= 0
+        used = self.following[:rows] >= 0
         side = sides(self.normal[:, :rows], self.directions[:, k])
-        at, cone = np.nonzero(here & (side == 0))
+        at, cone = np.nonzero(used & (side == 0))
         if len(at):
             a, b = self.who[at, cone], self.who[self.following[at, cone], cone]
             first, second = (self.directions[:, end, cone] for end in (np.minimum(a, b), np.maximum(a, b)))
             signs = exact_sides(first, second, self.directions[:, k, cone])
             side[at, cone] = np.where(a < b, signs, -signs)
-        return here & (side < 0)
+        return used & (side < 0)
 
     def insert(self, k: int, row: int, seen: Mask) -> None:
         """Replace the facets that direction k sees, if any, by two facets at a new row."""

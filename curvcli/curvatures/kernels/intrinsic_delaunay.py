@@ -108,22 +108,22 @@ class IntrinsicTriangulation:
         """Weights of the given edges, and flags of the edges to flip."""
         for block in slices(len(edges), _FLIPS_PER_BLOCK):
             edge = edges[block]
-            here, there, free = self._sides(edge)
-            thin = self._thin[here // 3] | self._thin[there // 3]
+            half_edge, mate, free = self._sides(edge)
+            thin = self._thin[half_edge // 3] | self._thin[mate // 3]
             with np.errstate(over="ignore", invalid="ignore"):
-                weight = self._cotangent[here] + np.where(free, self._cotangent[there], 0.0)
+                weight = self._cotangent[half_edge] + np.where(free, self._cotangent[mate], 0.0)
             self.weight[edge] = weight
-            self.failing[edge] = free & (here // 3 != there // 3) & (weight < -_LIMIT) & ~self._lost(here)
+            self.failing[edge] = free & (half_edge // 3 != mate // 3) & (weight < -_LIMIT) & ~self._lost(half_edge)
             self._weigh_thin(edge[thin])
 
     def _weigh_thin(self, edges: Indices) -> None:
         """`_weigh` in double-double arithmetic, for edges of thin faces."""
         for block in slices(len(edges), _FLIPS_PER_BLOCK):
             edge = edges[block]
-            here, there, free = self._sides(edge)
-            f, g = here // 3, there // 3
+            half_edge, mate, free = self._sides(edge)
+            f, g = half_edge // 3, mate // 3
             self._lift(np.concatenate([f, g]))
-            c, d = self._products.at(previous_corner(here)), self._products.at(previous_corner(there))
+            c, d = self._products.at(previous_corner(half_edge)), self._products.at(previous_corner(mate))
             c_area, d_area = self._twice_area.at(f), self._twice_area.at(g)
             with np.errstate(all="ignore"):
                 cotangent, opposite = c.high / c_area.high, d.high / d_area.high
@@ -131,7 +131,7 @@ class IntrinsicTriangulation:
                 flat = (c_area.high == 0) | (d_area.high == 0)
                 weight = np.where(flat, cotangent + opposite, weight)
                 limit = _LIMIT + _SLACK * np.maximum(abs(cotangent), abs(opposite)) ** 2
-                self.failing[edge] = free & (f != g) & ~self._lost(here) & (weight < -np.minimum(limit, 1e300))
+                self.failing[edge] = free & (f != g) & ~self._lost(half_edge) & (weight < -np.minimum(limit, 1e300))
             self.weight[edge] = np.where(free, weight, cotangent)
 
     def _lost(self, sides: Indices) -> Mask:
@@ -144,9 +144,9 @@ class IntrinsicTriangulation:
 
     def _sides(self, edges: Indices) -> tuple[Indices, Indices, Mask]:
         """Both sides of the given edges, one side twice for a constrained edge, and the mask of unconstrained ones."""
-        here = self.side[edges]
+        half_edge = self.side[edges]
         free = self.mates[edges] >= 0
-        return here, np.where(free, self.mates[edges] - here, here), free
+        return half_edge, np.where(free, self.mates[edges] - half_edge, half_edge), free
 
     # ------------------------------------------------------------------ flips
 
@@ -155,8 +155,8 @@ class IntrinsicTriangulation:
         first = np.full(len(self._lifted), np.uint32(0xFFFFFFFF))
         todo: Indices = np.flatnonzero(self.failing)
         while len(todo) and self.flips + _ROUND * self.rounds < most:
-            here = self.side[todo]
-            f, g = here // 3, (self.mates[todo] - here) // 3
+            half_edge = self.side[todo]
+            f, g = half_edge // 3, (self.mates[todo] - half_edge) // 3
             # An odd factor permutes the numbers below 2³²: precedence is pseudo-random, unique and repeatable.
             precedence = (todo.astype(np.uint32) + np.uint32(self.rounds)) * np.uint32(2654435761)
             np.minimum.at(first, f, precedence)

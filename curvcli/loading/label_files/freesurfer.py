@@ -104,8 +104,10 @@ def read_label(data: bytes, name: str) -> LabelFile:
     begin = 1 if rows and rows[0].startswith(b"#") else 0
     count = rows[begin] if begin < len(rows) else b""
     if not count.isdigit() or len(rows) - begin - 1 < int(count[:12]):
-        found = f"`{escape_text(decode(count))[:40]}` found, a number of rows not above {max(len(rows) - begin - 1, 0)}"
-        raise InputError(f"{found} expected", place=f"line {begin + 1}")
+        problem = (
+            f"`{escape_text(decode(count))[:40]}` found, a number of rows not above {max(len(rows) - begin - 1, 0)}"
+        )
+        raise InputError(f"{problem} expected", place=f"line {begin + 1}")
     rows = rows[begin + 1 : begin + 1 + int(count)]
     if len({row.count(b" ") for row in rows}) > 1:
         short = min(range(len(rows)), key=lambda k: rows[k].count(b" "))

@@ -42,7 +42,7 @@ def read_text(data: bytes) -> LabelFile:
     text = data.decode("utf-8-sig")
     filled = filter(None, map(str.strip, io.StringIO(text, newline=None)))
     first, second = next(filled, ""), next(filled, "").split()
-    separator = next((one for one in "\t,;" if one in first), None)
+    separator = next((character for character in "\t,;" if character in first), None)
     indexed = len(second) > 1 and _is_number(second[0])
     if separator is None and indexed and first.split()[0].lower() in _INDEX and " " in first:
         return _table([line.split() for line in io.StringIO(text, newline=None) if line.strip()])
@@ -94,8 +94,8 @@ def _words(text: str) -> LabelFile:
             f"{len(row)} numbers in a line found, one label expected",
             hint="a first line `vertex label` makes it a table",
         )
-    words = [line[1:-1].replace('""', '"') if line[:1] == line[-1:] == '"' else line for line in lines if line]
-    return LabelFile(coded(words), _element(words[0]), header=True)
+    names = [line[1:-1].replace('""', '"') if line[:1] == line[-1:] == '"' else line for line in lines if line]
+    return LabelFile(coded(names), _element(names[0]), header=True)
 
 
 def _refuse_mixed(cells: list[str], begin: int, name: str) -> None:
@@ -108,11 +108,11 @@ def _refuse_mixed(cells: list[str], begin: int, name: str) -> None:
         raise InputError(problem, place=f"{name} {wrong + begin}")
 
 
-def coded(words: Iterable[str]) -> Labels:
+def coded(names: Iterable[str]) -> Labels:
     """Words as labels, in the order of first use; an empty word is no label."""
     number: dict[str, int] = {}
-    codes = np.array([number.setdefault(word, len(number)) if word else -1 for word in words], np.int32)
-    return Labels(codes, tuple(escape_text(word) for word in number))
+    codes = np.array([number.setdefault(name, len(number)) if name else -1 for name in names], np.int32)
+    return Labels(codes, tuple(escape_text(name) for name in number))
 
 
 def _table(rows: list[list[str]]) -> LabelFile:
@@ -148,8 +148,8 @@ def _places(cells: list[str], name: str) -> NDArray[np.int64]:
         row = next(
             place for place, cell in enumerate(cells) if not cell.strip().lstrip("+-").isdecimal() or len(cell) > 18
         )
-        found = escape_text(cells[row])[:40]
-        raise InputError(f"`{found}` found, a whole number of `{name}` expected", place=f"row {row + 2}") from None
+        spelling = escape_text(cells[row])[:40]
+        raise InputError(f"`{spelling}` found, a whole number of `{name}` expected", place=f"row {row + 2}") from None
 
 
 def _is_number(text: str) -> bool:

@@ -58,14 +58,14 @@ def joined_attributes(pieces: Sequence[Sequence[Attribute]], notices: list[Notic
     names = dict.fromkeys(name for piece in by_name for name in piece)
     kept, dropped = [], []
     for name in names:
-        parts = [piece[name] for piece in by_name if name in piece]
-        if len(parts) < len(pieces) or len({part.layout for part in parts}) > 1:
+        arrays = [piece[name] for piece in by_name if name in piece]
+        if len(arrays) < len(pieces) or len({part.layout for part in arrays}) > 1:
             dropped.append(name)
-        elif parts[0].layout:
-            numbers = np.concatenate([np.asarray(part.values) for part in parts])
-            kept.append(Attribute(name, numbers, parts[0].role, parts[0].names))
+        elif arrays[0].layout:
+            numbers = np.concatenate([np.asarray(part.values) for part in arrays])
+            kept.append(Attribute(name, numbers, arrays[0].role, arrays[0].names))
         else:
-            kept.append(Attribute(name, [word for part in parts for word in part.values]))
+            kept.append(Attribute(name, [word for part in arrays for word in part.values]))
     notices += ignored(dropped, "that some pieces lack", "the arrays of a mesh need a value in every piece")
     return kept
 
@@ -95,17 +95,17 @@ def properties(attributes: Iterable[Attribute]) -> dict[str, NDArray[Any]]:
 
 def labels(attributes: Iterable[Attribute], meanings: Mapping[str, tuple[str, ...]]) -> dict[str, Labels]:
     """Arrays of words, and of codes whose names are known, as labels."""
-    found: dict[str, Labels] = {}
+    by_name: dict[str, Labels] = {}
     for attribute in attributes:
         values = attribute.values
         if not isinstance(values, np.ndarray):
             number: dict[str | None, int] = {None: -1}
             codes = np.array([number.setdefault(word, len(number) - 1) for word in values], np.int32)
             del number[None]
-            found[attribute.name] = Labels(codes, tuple(word for word in number if word is not None))
+            by_name[attribute.name] = Labels(codes, tuple(word for word in number if word is not None))
         elif (names := meanings.get(attribute.name)) and _are_codes(values, len(names)):
-            found[attribute.name] = Labels(values.astype(np.int32), names)
-    return found
+            by_name[attribute.name] = Labels(values.astype(np.int32), names)
+    return by_name
 
 
 def _are_codes(values: NDArray[Any], names: int) -> bool:

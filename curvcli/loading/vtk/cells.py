@@ -198,25 +198,25 @@ def _with_strips(
     return CellFaces(every.corners[at].astype(np.int32), sizes, origin[order], cells.count, lines, others)
 
 
-def joined(parts: Sequence[CellFaces], vertices: Sequence[int]) -> CellFaces:
+def joined(pieces: Sequence[CellFaces], vertices: Sequence[int]) -> CellFaces:
     """Faces of consecutive pieces, given the number of vertices of each."""
-    if len(parts) == 1:
-        return parts[0]
+    if len(pieces) == 1:
+        return pieces[0]
     first = np.cumsum([0, *vertices])
-    cells = np.cumsum([0, *(part.cells for part in parts)])
+    cells = np.cumsum([0, *(piece.cells for piece in pieces)])
     return CellFaces(
-        np.concatenate([part.corners + np.int32(at) for part, at in zip(parts, first[:-1], strict=True)]),
-        np.concatenate([part.sizes for part in parts]),
+        np.concatenate([piece.corners + np.int32(at) for piece, at in zip(pieces, first[:-1], strict=True)]),
+        np.concatenate([piece.sizes for piece in pieces]),
         np.concatenate(
             [
-                (np.arange(part.cells) if part.cell is None else part.cell) + at
-                for part, at in zip(parts, cells[:-1], strict=True)
+                (np.arange(piece.cells) if piece.cell is None else piece.cell) + at
+                for piece, at in zip(pieces, cells[:-1], strict=True)
             ]
         ),
         int(cells[-1]),
         CellLists(
-            np.concatenate([part.lines.corners + np.int32(at) for part, at in zip(parts, first[:-1], strict=True)]),
-            np.concatenate([part.lines.sizes for part in parts]),
+            np.concatenate([piece.lines.corners + np.int32(at) for piece, at in zip(pieces, first[:-1], strict=True)]),
+            np.concatenate([piece.lines.sizes for piece in pieces]),
         ),
-        sum((part.others for part in parts), Counter()),
+        sum((piece.others for piece in pieces), Counter()),
     )

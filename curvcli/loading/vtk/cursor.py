@@ -63,25 +63,25 @@ class Cursor:
     def line(self) -> list[str]:
         """The words of the next line that is not empty; none at the end."""
         while self.at < len(self.data):
-            found = _LINE.match(self.data, self.at)
-            assert found is not None
-            if words := found[1].split():
-                self.at = found.end()
-                return [decode(word) for word in words]
-            if found.end() == self.at:
+            match = _LINE.match(self.data, self.at)
+            assert match is not None
+            if tokens := match[1].split():
+                self.at = match.end()
+                return [decode(token) for token in tokens]
+            if match.end() == self.at:
                 break
-            self.at = found.end()
+            self.at = match.end()
         return []
 
     def peek(self) -> str:
         """The next word in capitals."""
-        found = _WORD.match(self.data, self.at)
-        return decode(found[1][:40]).upper() if found else ""
+        match = _WORD.match(self.data, self.at)
+        return decode(match[1][:40]).upper() if match else ""
 
     def skip_paragraph(self) -> None:
         """Skip lines until an empty one, as metadata end."""
-        found = _PARAGRAPH.search(self.data, self.at)
-        self.at = found.end() if found else len(self.data)
+        match = _PARAGRAPH.search(self.data, self.at)
+        self.at = match.end() if match else len(self.data)
 
     def numbers(self, kind: str, count: int, *, kept: bool = True) -> NDArray[Any]:
         """The next numbers. kept: in memory of their own, not that of the file.
@@ -162,9 +162,9 @@ class Cursor:
             inside = int(np.count_nonzero(starts))
             if inside >= count:
                 last = int(np.flatnonzero(starts)[count - 1])
-                found = _WORD.match(self.data, begin + last)
-                assert found is not None
-                return found.end()
+                match = _WORD.match(self.data, begin + last)
+                assert match is not None
+                return match.end()
             count -= inside
             before = bool(blank[-1])
             begin, size = begin + size, 2 * size

@@ -139,9 +139,9 @@ class Decoder:
         return _Base64(self.data, at) if self.base64 else _Raw(self.data, at)
 
 
-def _compare(found: int, expected: int | None) -> None:
-    if expected is not None and found != expected:
-        raise InputError(f"{number_of(found, 'byte')} announced, {expected} expected by the counts")
+def _compare(size: int, expected: int | None) -> None:
+    if expected is not None and size != expected:
+        raise InputError(f"{number_of(size, 'byte')} announced, {expected} expected by the counts")
 
 
 class _Raw:

@@ -98,13 +98,13 @@ class _Scan:
             if self.data.startswith(start, begin):
                 if not end:
                     raise InputError("a CDATA section found, arrays as VTK writes them expected", place=f"byte {begin}")
-                found = self.data.find(end, begin)
-                stop = found + len(end)
+                position = self.data.find(end, begin)
+                stop = position + len(end)
                 break
         else:
             tag = _TAG.match(self.data, begin)
-            found, stop = (begin, tag.end()) if tag else (-1, 0)
-        if found < 0:
+            position, stop = (begin, tag.end()) if tag else (-1, 0)
+        if position < 0:
             raise InputError("the file ends within a tag", place=f"byte {begin}", hint="the file was cut off")
         return stop
 

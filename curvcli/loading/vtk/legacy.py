@@ -37,19 +37,19 @@ def parse_legacy(pieces: Pieces, options: ParserOptions) -> MeshFile:
     if head is None or title is None:
         raise InputError("no first line `# vtk DataFile Version` and title found", place="line 1")
     form = Cursor(data, title.end(), text=True)
-    words = form.line()
-    if not words or (mode := words[0].upper()) not in ("ASCII", "BINARY"):
-        raise InputError(f"`{' '.join(words)[:40]}` found, ASCII or BINARY expected", place="line 3")
+    tokens = form.line()
+    if not tokens or (mode := tokens[0].upper()) not in ("ASCII", "BINARY"):
+        raise InputError(f"`{' '.join(tokens)[:40]}` found, ASCII or BINARY expected", place="line 3")
     cursor = Cursor(data, form.at, text=mode == "ASCII")
-    words = cursor.line()
+    tokens = cursor.line()
     fields: list[Attribute] = []
-    while words and words[0].upper() == "FIELD":
-        fields += read_attributes(cursor, words, None)
-        words = cursor.line()
-    kind = words[1].upper() if len(words) > 1 and words[0].upper() == "DATASET" else ""
+    while tokens and tokens[0].upper() == "FIELD":
+        fields += read_attributes(cursor, tokens, None)
+        tokens = cursor.line()
+    kind = tokens[1].upper() if len(tokens) > 1 and tokens[0].upper() == "DATASET" else ""
     if kind not in ("POLYDATA", "UNSTRUCTURED_GRID"):
         raise InputError(
-            f"`{' '.join(words)[:40]}` found, DATASET POLYDATA or UNSTRUCTURED_GRID expected",
+            f"`{' '.join(tokens)[:40]}` found, DATASET POLYDATA or UNSTRUCTURED_GRID expected",
             place=cursor.place,
             hint=STRAIGHT,
         )
@@ -71,19 +71,19 @@ class _Legacy:
     def mesh_file(self, options: ParserOptions) -> MeshFile:
         """Read all sections."""
         section = ""
-        while words := self.cursor.line():
-            keyword = words[0].upper()
+        while tokens := self.cursor.line():
+            keyword = tokens[0].upper()
             if keyword in self.arrays:
                 section = keyword
-                self.counts[section] = _number(words, 1, self.cursor)
+                self.counts[section] = _number(tokens, 1, self.cursor)
             elif keyword == "METADATA":
                 self.cursor.skip_paragraph()
             elif section or keyword == "FIELD":
                 count = self.counts.get(section)
-                kept = read_attributes(self.cursor, words, count)
+                kept = read_attributes(self.cursor, tokens, count)
                 (self.arrays[section] if section else self.fields).extend(kept)
             else:
-                self._geometry(keyword, words)
+                self._geometry(keyword, tokens)
         if self.points is None:
             raise InputError("no POINTS found", place=self.cursor.place)
         points = len(self.points)
@@ -101,20 +101,20 @@ class _Legacy:
         piece = VtkPiece(self.points, faces, _distinct(self.arrays["POINT_DATA"]), _distinct(self.arrays["CELL_DATA"]))
         return mesh_file(DataSet([piece], Meanings(unit=_unit(self.fields)), self.notices), "vtk", options)
 
-    def _geometry(self, keyword: str, words: list[str]) -> None:
+    def _geometry(self, keyword: str, tokens: list[str]) -> None:
         cursor = self.cursor
         if keyword == "POINTS":
             if self.points is not None:
                 raise InputError("a second POINTS found, one expected", place=cursor.place)
-            if len(words) < 3:
+            if len(tokens) < 3:
                 raise InputError("POINTS without a number and a type found", place=cursor.place)
-            self.points = cursor.numbers(words[2], 3 * _number(words, 1, cursor), kept=False).reshape(-1, 3)
+            self.points = cursor.numbers(tokens[2], 3 * _number(tokens, 1, cursor), kept=False).reshape(-1, 3)
         elif keyword == "CELL_TYPES":
-            self.types = cursor.numbers("int", _number(words, 1, cursor))
+            self.types = cursor.numbers("int", _number(tokens, 1, cursor))
         elif keyword in (_LISTS if self.kind == "POLYDATA" else ("CELLS",)):
             if keyword in self.lists:
                 raise InputError(f"a second {keyword} found, one expected", place=cursor.place)
-            first, second = _number(words, 1, cursor), _number(words, 2, cursor)
+            first, second = _number(tokens, 1, cursor), _number(tokens, 2, cursor)
             read = self._by_offsets if self.with_offsets else self._by_lengths
             self.lists[keyword] = read(first, second, keyword)
         else:
@@ -130,13 +130,15 @@ class _Legacy:
         return CellLists.of_ends(self._array("CONNECTIVITY", corners), ends[1:], keyword)
 
     def _array(self, name: str, count: int) -> NDArray[Any]:
-        words = self.cursor.line()
-        if len(words) < 2 or words[0].upper() != name:
-            found = " ".join(words)[:40]
-            raise InputError(f"`{escape_text(found)}` found, {name} and a type expected", place=self.cursor.place)
-        values = self.cursor.numbers(words[1], count, kept=False)
+        tokens = self.cursor.line()
+        if len(tokens) < 2 or tokens[0].upper() != name:
+            line = " ".join(tokens)[:40]
+            raise InputError(f"`{escape_text(line)}` found, {name} and a type expected", place=self.cursor.place)
+        values = self.cursor.numbers(tokens[1], count, kept=False)
         if values.dtype.kind == "f":
-            raise InputError(f"{name} of type {words[1][:40]} found, an integer type expected", place=self.cursor.place)
+            raise InputError(
+                f"{name} of type {tokens[1][:40]} found, an integer type expected", place=self.cursor.place
+            )
         return values
 
     def _by_lengths(self, cells: int, size: int, keyword: str) -> CellLists:
@@ -144,11 +146,11 @@ class _Legacy:
         return CellLists.of_lengths(self.cursor.numbers("int", size, kept=False), keyword, cells)
 
 
-def _number(words: list[str], place: int, cursor: Cursor) -> int:
-    if len(words) <= place or not (words[place].isascii() and words[place].isdigit() and len(words[place]) < 19):
-        found = escape_text(" ".join(words)[:60])
-        raise InputError(f"`{found}` found, whole numbers expected behind the keyword", place=cursor.place)
-    return int(words[place])
+def _number(tokens: list[str], place: int, cursor: Cursor) -> int:
+    if len(tokens) <= place or not (tokens[place].isascii() and tokens[place].isdigit() and len(tokens[place]) < 19):
+        line = escape_text(" ".join(tokens)[:60])
+        raise InputError(f"`{line}` found, whole numbers expected behind the keyword", place=cursor.place)
+    return int(tokens[place])
 
 
 def _distinct(attributes: list[Attribute]) -> list[Attribute]:

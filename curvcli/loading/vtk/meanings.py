@@ -36,6 +36,6 @@ class Meanings:
             return
         for element, target in (("points", self.points), ("cells", self.cells)):
             arrays = given.get(element)
-            for name, words in arrays.items() if isinstance(arrays, Mapping) else ():
-                if isinstance(words, list) and all(isinstance(word, str) for word in words):
-                    target[name] = tuple(words)
+            for name, labels in arrays.items() if isinstance(arrays, Mapping) else ():
+                if isinstance(labels, list) and all(isinstance(label, str) for label in labels):
+                    target[name] = tuple(labels)

@@ -16,5 +16,5 @@ def kind_of(pieces: Pieces) -> str:
     start = pieces.ahead()
     if not start[:100].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         return ""
-    found = _SIGN.search(start)
-    return found[1].decode("ascii", "replace") if found else ""
+    match = _SIGN.search(start)
+    return match[1].decode("ascii", "replace") if match else ""

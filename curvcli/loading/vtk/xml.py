@@ -175,8 +175,8 @@ def _attributes(piece: XmlElement, section: str, count: int, decoder: Decoder) -
                 continue
             width = _width(array)
             values = decoder.numbers(array, count * width)
-            parts = tuple(array.attributes.get(f"ComponentName{k}", "") for k in range(width)) if width > 1 else ()
-            yield Attribute(name, values.reshape(-1, width) if width > 1 else values, roles.get(name, ""), parts)
+            components = tuple(array.attributes.get(f"ComponentName{k}", "") for k in range(width)) if width > 1 else ()
+            yield Attribute(name, values.reshape(-1, width) if width > 1 else values, roles.get(name, ""), components)
 
 
 def _width(array: XmlElement) -> int:

@@ -26,11 +26,11 @@ def contact_points(p: Floats, q: Floats) -> Floats:
             for c, d in ((0, 1), (1, 2), (2, 0)):
                 if ends is p:
                     points.append(_nearest(ends[a], along, q[c], q[d] - q[c]))
-    places = np.array(points)
-    distance = np.array([np.maximum(_distance(x, p), _distance(x, q)) for x in places])
+    candidates = np.array(points)
+    distance = np.array([np.maximum(_distance(x, p), _distance(x, q)) for x in candidates])
     reach = np.abs(np.concatenate([p, q])).max(axis=(0, 1)) + np.ptp(np.concatenate([p, q]), axis=0).max(axis=0)
     weight = distance <= distance.min(axis=0) + 64 * np.finfo(np.float64).eps * reach
-    return np.asarray((places * weight[:, None]).sum(axis=0) / weight.sum(axis=0))
+    return np.asarray((candidates * weight[:, None]).sum(axis=0) / weight.sum(axis=0))
 
 
 def _part(over: Floats, under: Floats) -> Floats:

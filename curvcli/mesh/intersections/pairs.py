@@ -70,10 +70,10 @@ def _apart_at_corner(p: Floats, q: Floats) -> Mask:
 
 def _apart_at_edge(p: Floats, q: Floats) -> Mask:
     """(n,) flags: the angle between the two faces, seen along their common edge, exceeds 90°, beyond rounding."""
-    edge, one, other = p[1] - p[0], p[2] - p[0], q[2] - p[0]
+    edge, to_apex, to_other_apex = p[1] - p[0], p[2] - p[0], q[2] - p[0]
     square = dot(edge, edge)
-    value = square * dot(one, other) - dot(edge, one) * dot(edge, other)
-    lengths = square * np.sqrt(dot(one, one) * dot(other, other))
+    value = square * dot(to_apex, to_other_apex) - dot(edge, to_apex) * dot(edge, to_other_apex)
+    lengths = square * np.sqrt(dot(to_apex, to_apex) * dot(to_other_apex, to_other_apex))
     return np.asarray((value < -4 * _CERTAIN * lengths) & (lengths > 0))
 
 
@@ -104,10 +104,10 @@ def _without_common_corner(p: Floats, q: Floats) -> Sign:
     e, f = np.where(low, f, e), np.where(low, e, f)
     low = _sinks(above)
     b, c = np.where(low, c, b), np.where(low, b, c)
-    one, other = orient3d(a, b, d, e), orient3d(a, c, f, d)
+    first_sign, second_sign = orient3d(a, b, d, e), orient3d(a, c, f, d)
     both_sides = _mixed(above) & _mixed(below)
-    meet = (one <= 0) & (other <= 0)
-    along = (one < 0) & (other < 0)
+    meet = (first_sign <= 0) & (second_sign <= 0)
+    along = (first_sign < 0) & (second_sign < 0)
     result[rows] = np.where(meet, np.where(along & both_sides, CROSSING, TOUCHING), APART)
     return result
 
@@ -143,10 +143,10 @@ def _in_one_plane(p: Floats, q: Floats, shared: int) -> Sign:
         return np.zeros(0, np.int8)
     p, q = _projected(p, q)
     open_, closed = np.ones(p.shape[-1], bool), np.ones(p.shape[-1], bool)
-    for one, other in ((p, q), (q, p)):
-        turn = _area(one)
+    for triangle, other in ((p, q), (q, p)):
+        turn = _area(triangle)
         for a, b in _EDGES:
-            sides = np.stack([orient2d(one[a], one[b], x) for x in other]) * turn
+            sides = np.stack([orient2d(triangle[a], triangle[b], x) for x in other]) * turn
             open_ &= (sides > 0).any(axis=0)
             closed &= (sides >= 0).any(axis=0)
     if shared:
@@ -220,5 +220,5 @@ def _lone_first(corners: Floats, signs: Sign) -> list[Floats]:
 def _sinks(signs: Sign) -> Mask:
     """(n,) flags: the lone corner lies below the other two."""
     lone, column = _lone(signs), np.arange(signs.shape[-1])
-    here = signs[lone, column]
-    return np.asarray((here < 0) | ((here == 0) & (signs.sum(axis=0) > 0)))
+    lone_sign = signs[lone, column]
+    return np.asarray((lone_sign < 0) | ((lone_sign == 0) & (signs.sum(axis=0) > 0)))

@@ -31,8 +31,8 @@ class FaceContacts(NamedTuple):
 
     def points(self, surface: Surface) -> Floats:
         """(n, 3) a point of contact of each pair, in the unit of the file."""
-        places = contact_points(*(corners_of(surface.xyz, surface.faces[faces]) for faces in (self.one, self.other)))
-        return surface.in_file_unit(places, 1).T
+        positions = contact_points(*(corners_of(surface.xyz, surface.faces[faces]) for faces in (self.one, self.other)))
+        return surface.in_file_unit(positions, 1).T
 
     def first_of(self, kind: int, most: int) -> FaceContacts:
         """The first contacts of a kind."""
@@ -61,10 +61,10 @@ def face_contacts(surface: Surface) -> FaceContacts:
         return _decide(surface.xyz, corners, candidates[1], candidates[2])
 
     decided = [FaceContacts(nothing, nothing, nothing.astype(np.int8)), *map_pieces(tree.meeting(whole, whole), decide)]
-    one, other, kind = (np.concatenate(part) for part in zip(*decided, strict=True))
-    one, other = np.minimum(one, other), np.maximum(one, other)
-    order = np.lexsort((other, one))
-    return FaceContacts(one[order], other[order], kind[order])
+    face, other, kind = (np.concatenate(part) for part in zip(*decided, strict=True))
+    face, other = np.minimum(face, other), np.maximum(face, other)
+    order = np.lexsort((other, face))
+    return FaceContacts(face[order], other[order], kind[order])
 
 
 def _corners(surface: Surface) -> NDArray[np.intp]:
@@ -77,14 +77,14 @@ def _corners(surface: Surface) -> NDArray[np.intp]:
     return np.ascontiguousarray(faces, np.intp)
 
 
-def _decide(xyz: Floats, corners: NDArray[np.intp], one: Ints, other: Ints) -> FaceContacts:
+def _decide(xyz: Floats, corners: NDArray[np.intp], face: Ints, other: Ints) -> FaceContacts:
     """The contacts among some pairs of faces."""
-    ends, others = corners.take(one, axis=1), corners.take(other, axis=1)
-    code = np.zeros(len(one), np.intp)
+    ends, others = corners.take(face, axis=1), corners.take(other, axis=1)
+    code = np.zeros(len(face), np.intp)
     for bit, (a, b) in enumerate((a, b) for a in ends for b in others):
         code |= (a == b).view(np.int8).astype(np.intp) << bit
     shared = _SHARED.take(code)
-    kind = np.full(len(one), APART, np.int8)
+    kind = np.full(len(face), APART, np.int8)
     for number in range(3):
         rows = np.flatnonzero(shared == number)
         if len(rows):
@@ -94,7 +94,7 @@ def _decide(xyz: Floats, corners: NDArray[np.intp], one: Ints, other: Ints) -> F
     if len(meet):
         p, q = _gather(xyz, ends, others, code.take(meet), meet)
         meet = meet[_have_area(p) & _have_area(q)]
-    return FaceContacts(one[meet], other[meet], kind[meet])
+    return FaceContacts(face[meet], other[meet], kind[meet])
 
 
 def _gather(

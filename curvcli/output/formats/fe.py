@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from ...errors import Notice
 
 
-def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+def write(stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write vertices, edges, facets, a body for each closed component, and the column of --color-by."""
     from ..meshes.fe import write_fe
 
-    return write_fe(stream, points, faces, **parts)
+    return write_fe(stream, points, faces, **attributes)
 
 
 register(

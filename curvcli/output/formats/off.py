@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from ...errors import Notice
 
 
-def write(stream: BinaryIO, points: Any, faces: Any, **parts: Any) -> tuple[Notice, ...]:
+def write(stream: BinaryIO, points: Any, faces: Any, **attributes: Any) -> tuple[Notice, ...]:
     """Write the mesh, its colours and comments."""
     from ..meshes.off import write_off
 
-    write_off(stream, points, faces, **parts)
+    write_off(stream, points, faces, **attributes)
     return ()
 
 

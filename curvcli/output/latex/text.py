@@ -36,10 +36,10 @@ DIGITS = 5
 
 def escape_latex(text: str) -> str:
     """Text in a cell; unprintable characters are escaped first, letters of other scripts stay."""
-    plain = escape_text(text)
-    plain = _SPACE.sub("\0", plain)
-    plain = _LIGATURE.sub(lambda sign: f"\1{sign[0]}", plain)
-    return plain.translate(_TABLE).replace("\0", r"\ ").replace("\1", "{}")
+    escaped = escape_text(text)
+    escaped = _SPACE.sub("\0", escaped)
+    escaped = _LIGATURE.sub(lambda sign: f"\1{sign[0]}", escaped)
+    return escaped.translate(_TABLE).replace("\0", r"\ ").replace("\1", "{}")
 
 
 def typeset(value: float | int | bool | None, digits: int = DIGITS) -> str:
@@ -60,8 +60,8 @@ def typeset(value: float | int | bool | None, digits: int = DIGITS) -> str:
 
 def _grouped(digits: str) -> str:
     """Digits in groups of three from ten thousand on."""
-    sign, plain = ("-", digits[1:]) if digits.startswith("-") else ("", digits)
-    return sign + (f"{int(plain):,}".replace(",", r"\,") if len(plain) > 4 else plain)
+    sign, magnitude = ("-", digits[1:]) if digits.startswith("-") else ("", digits)
+    return sign + (f"{int(magnitude):,}".replace(",", r"\,") if len(magnitude) > 4 else magnitude)
 
 
 def unit(text: str) -> str:

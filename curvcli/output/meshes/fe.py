@@ -152,6 +152,6 @@ def _write_bodies(
     for k, (begin, end) in enumerate(zip(bounds[:-1].tolist(), bounds[1:].tolist(), strict=True), 1):
         facets = order[begin:end] + 1
         for start in range(0, len(facets), _IN_A_LINE):
-            words = " ".join(map(str, facets[start : start + _IN_A_LINE].tolist()))
+            numbers = " ".join(map(str, facets[start : start + _IN_A_LINE].tolist()))
             turn = " \\" if start + _IN_A_LINE < len(facets) else ""
-            stream.write(f"{f'{k} ' if not start else '  '}{words}{turn}\n".encode())
+            stream.write(f"{f'{k} ' if not start else '  '}{numbers}{turn}\n".encode())

@@ -70,8 +70,8 @@ def write_vtk(
         arrays = {name: _values(name, column, comments) for name, column in properties.items()}
         for stem in _vectors(properties, taken):
             arrays[stem] = np.stack([np.asarray(properties[f"{stem}_{axis}"], np.float64) for axis in "xyz"], axis=1)
-        words = {name: column.names for name, column in properties.items() if isinstance(column, Labels)}
-        labels |= {element: words} if words else {}
+        names = {name: column.names for name, column in properties.items() if isinstance(column, Labels)}
+        labels |= {element: names} if names else {}
         sections.append(arrays)
     if colors is not None:
         sections[0][_COLORS] = colors

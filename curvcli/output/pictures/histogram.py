@@ -146,9 +146,9 @@ def _numbers(sheet: Sheet, axis: Axis, box: Box, font: float) -> None:
     low, high = float(axis.edges[0]), float(axis.edges[-1])
     assert scale.low is not None
     assert scale.high is not None
-    places, labels, _ = ticks(scale.low, scale.high, room, whole=axis.quantity.kind == "count")
+    tick_values, labels, _ = ticks(scale.low, scale.high, room, whole=axis.quantity.kind == "count")
     half = high / 2 - low / 2
-    axes.set_xticks([bins * (place / 2 - low / 2) / half for place in places] if half > 0 else [0.5], labels)
+    axes.set_xticks([bins * (value / 2 - low / 2) / half for value in tick_values] if half > 0 else [0.5], labels)
     finish_axes(sheet, axes, box[3], font)
 
 

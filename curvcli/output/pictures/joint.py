@@ -43,8 +43,8 @@ def draw_joint(sheet: Sheet, axes: Sequence[Axis], number: int, box: Box, font: 
     cells = each[number].T
     shown.pcolormesh(*edges, np.ma.masked_where(cells <= 0, cells), cmap=colors, norm=norm, rasterized=False)
     for axis, set_ticks, long in ((axes[0], shown.set_xticks, width - bar), (axes[1], shown.set_yticks, height)):
-        places, labels = _ticks(axis, max(2, int(long / (4.5 * font))))
-        set_ticks(places, labels)
+        positions, labels = _ticks(axis, max(2, int(long / (4.5 * font))))
+        set_ticks(positions, labels)
     finish_axes(sheet, shown, height, font, percent=False)
     key = sheet.axes((left + width - bar + 0.9 * font, top, 0.8 * font, height))
     key.imshow(colors(np.linspace(1, 0, 256))[:, None], aspect="auto", extent=(0, 1, 0, 1), interpolation="nearest")
@@ -57,6 +57,6 @@ def draw_joint(sheet: Sheet, axes: Sequence[Axis], number: int, box: Box, font: 
 def _ticks(axis: Axis, room: int) -> tuple[list[float], list[str]]:
     """Positions in bins, and labels."""
     low, high = float(axis.edges[0]), float(axis.edges[-1])
-    places, labels, _ = ticks(low, high, room)
+    tick_values, labels, _ = ticks(low, high, room)
     half = high / 2 - low / 2
-    return ([axis.bins * (place / 2 - low / 2) / half for place in places] if half > 0 else [0.5]), labels
+    return ([axis.bins * (value / 2 - low / 2) / half for value in tick_values] if half > 0 else [0.5]), labels

@@ -50,7 +50,7 @@ def _panel(sheet: Sheet, key: str, lines: Mapping[str, Floats], count: int, top:
     drawn = list(lines.values())[:_LINES]
     marker = "o" if count <= _MARKED else None
     known = np.concatenate([values[np.isfinite(values)] for values in drawn])
-    places, labels, power = ticks(float(known.min()), float(known.max()), 5)
+    tick_values, labels, power = ticks(float(known.min()), float(known.max()), 5)
     # In units of a power of two near the largest value, so that neither margins nor distances overflow.
     unit = float(np.ldexp(1.0, max(int(np.frexp(np.abs(known).max())[1]) - 1, -1000)))
     for values, color in zip(drawn, _colors(len(lines)), strict=False):
@@ -58,7 +58,7 @@ def _panel(sheet: Sheet, key: str, lines: Mapping[str, Floats], count: int, top:
     low, high = float(known.min()) / unit, float(known.max()) / unit
     room = 0.05 * (high - low) or 0.05
     axes.set_ylim(low - room, high + room)
-    axes.set_yticks([place / unit for place in places], labels)
+    axes.set_yticks([tick / unit for tick in tick_values], labels)
     positions, numbers, _ = ticks(0, max(count - 1, 1), 9, whole=True)
     axes.set_xlim(-0.02 * max(count - 1, 1), 1.02 * max(count - 1, 1))
     axes.set_xticks(positions, numbers)

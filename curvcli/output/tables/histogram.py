@@ -31,8 +31,8 @@ def histogram_table(samples: MeshSamples, appearance: Appearance) -> dict[str, A
     histograms = samples.histograms
     paired = any(len(columns) > 1 for columns in histograms)
     rows = [row for columns in histograms for row in _rows([axis_of(each, columns, appearance) for each in columns])]
-    words = ["mesh"] * samples.compared + ["column"] + ["against"] * paired + ["part"]
-    table: dict[str, Any] = {name: _labels([row.get(name) for row in rows]) for name in words}
+    label_columns = ["mesh"] * samples.compared + ["column"] + ["against"] * paired + ["part"]
+    table: dict[str, Any] = {name: _labels([row.get(name) for row in rows]) for name in label_columns}
     for name in (*(_EDGES if paired else _EDGES[:2]), *_NUMBERS):
         table[name] = np.array([row.get(name, np.nan) for row in rows], np.float64)
     table["vertices"] = table["vertices"].astype(np.int64)
@@ -51,10 +51,10 @@ def _rows(axes: Sequence[Axis]) -> Iterator[dict[str, Any]]:
     names = {"column": axes[0].name} | ({"against": axes[1].name} if len(axes) > 1 else {})
     for mesh, counted in zip((sample.mesh for sample in meshes), counts, strict=True):
         for cell in np.ndindex(occupied.shape):
-            parts = [_part(column, place) for column, place in zip(axes, cell, strict=True)]
-            inside = not {BELOW, ABOVE}.intersection(parts)
+            cell_parts = [_part(column, place) for column, place in zip(axes, cell, strict=True)]
+            inside = not {BELOW, ABOVE}.intersection(cell_parts)
             if inside or occupied[cell]:
-                part = next((part for part in parts if part in (BELOW, ABOVE)), parts[0])
+                part = next((part for part in cell_parts if part in (BELOW, ABOVE)), cell_parts[0])
                 yield {"mesh": mesh, **names, "part": part, **_edges_of(axes, cell), **_counts(counted, cell)}
         vertices, area = counted.undefined
         yield {"mesh": mesh, **names, "part": UNDEFINED, "vertices": vertices, "area": area}
@@ -81,7 +81,7 @@ def _counts(counted: Distribution, cell: tuple[int, ...]) -> dict[str, float]:
     return {name: float(value) for name, value in zip(_NUMBERS, values, strict=True)}
 
 
-def _labels(words: Sequence[str | None]) -> Labels:
-    names = tuple(dict.fromkeys(word for word in words if word is not None))
+def _labels(texts: Sequence[str | None]) -> Labels:
+    names = tuple(dict.fromkeys(text for text in texts if text is not None))
     number = {name: code for code, name in enumerate(names)}
-    return Labels(np.array([-1 if word is None else number[word] for word in words], np.int32), names)
+    return Labels(np.array([-1 if text is None else number[text] for text in texts], np.int32), names)

@@ -33,8 +33,8 @@ def statistics_table(analysis: Result) -> dict[str, Any]:
             row = zip(names, (region, column, statistic), strict=True)
             codes.append(tuple(known.setdefault(name, len(known) - (None in known)) for known, name in row))
             values.append(np.nan if value is None else float(value))
-    places = np.array(codes, np.int32).reshape(-1, 3)
+    code_table = np.array(codes, np.int32).reshape(-1, 3)
     table: dict[str, Any] = {"mesh": Labels(np.zeros(len(values), np.int32), (mesh,))}
-    for key, known, place in zip(("region", "column", "statistic"), names, places.T, strict=True):
-        table[key] = Labels(np.ascontiguousarray(place), tuple(name for name in known if name is not None))
+    for key, known, codes_of_column in zip(("region", "column", "statistic"), names, code_table.T, strict=True):
+        table[key] = Labels(np.ascontiguousarray(codes_of_column), tuple(name for name in known if name is not None))
     return table | {"value": np.array(values, np.float64)}

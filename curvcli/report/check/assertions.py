@@ -62,13 +62,13 @@ class Assertion:
         """Text of the assertion as after --assert."""
         return f"{self.scope.prefix}{self.measured.call} {self.comparison} {format_number(self.bound)}"
 
-    def judge(self, analysis: Result, parts: dict[str, ScopedStatistics] | None = None) -> list[AssertionVerdict]:
+    def judge(self, analysis: Result, by_scope: dict[str, ScopedStatistics] | None = None) -> list[AssertionVerdict]:
         """Verdict on each group; of very many groups, those that fail and one for the others.
 
         parts: the statistics of earlier assertions, by kind of scope.
         Errors: LackingError for a region that the mesh has not; UsageError for a value that is not computed.
         """
-        known = {} if parts is None else parts
+        known = {} if by_scope is None else by_scope
         part = known.setdefault(self.scope.kind, ScopedStatistics(analysis, self.scope.kind))
         chosen = self.scope.chosen(part)
         values = self.measured.values(part)[chosen]

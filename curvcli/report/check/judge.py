@@ -180,21 +180,21 @@ def _of_requirement(required: Required, problem: str, surface: Surface) -> Outco
 
 def _places(surface: Surface, elements: Iterable[FaultyElements]) -> list[FaultPlace]:
     """The first elements of each kind, with their positions."""
-    places = []
+    fault_places = []
     for each in elements:
         first = FaultyElements(each.kind, each.numbers[:_PLACES])
         positions = first.positions(surface).tolist()
-        places += [
+        fault_places += [
             FaultPlace(name, [or_none(x) for x in position])
             for name, position in zip(first.names(surface), positions, strict=True)
         ]
-    return places
+    return fault_places
 
 
 def _of_assertions(chosen: Iterable[Assertion], analysis: Result) -> Iterator[Outcome]:
     """Outcomes of every assertion on the whole, or on each of its regions or components."""
-    parts: dict[str, ScopedStatistics] = {}
+    by_scope: dict[str, ScopedStatistics] = {}
     for assertion in chosen:
-        for verdict in assertion.judge(analysis, parts):
+        for verdict in assertion.judge(analysis, by_scope):
             status, scope = PASS if verdict.held else FAIL, escape_text(verdict.scope)
             yield Outcome(assertion.name, ASSERTION, scope, status, verdict.message, verdict.value, assertion.bound)

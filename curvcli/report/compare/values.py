@@ -115,7 +115,7 @@ def compare_reports(
             differences += [difference] if difference else []
         elif not common:
             lacking = leaves_b if key in leaves_a else leaves_a
-            name = dotted(key if any(there[:2] == key[:2] for there in lacking) else key[:2])
+            name = dotted(key if any(other_key[:2] == key[:2] for other_key in lacking) else key[:2])
             if name not in absent:
                 absent.add(name)
                 differences.append(

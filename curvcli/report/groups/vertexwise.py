@@ -67,8 +67,11 @@ def vertex_map(
                 mean[1], deviation[1], b.count[name], mean[0], deviation[0], a.count[name], equal_var=False
             )
         t, p = (np.where(tested, values, np.nan) for values in (t, p))
-        parts = (*mean, mean[1] - mean[0], t, p, adjusted(p, correction), a.count[name], b.count[name])
-        columns |= {f"{name}_{part}": np.asarray(values, np.float64) for part, values in zip(PARTS, parts, strict=True)}
+        statistics = (*mean, mean[1] - mean[0], t, p, adjusted(p, correction), a.count[name], b.count[name])
+        columns |= {
+            f"{name}_{statistic}": np.asarray(values, np.float64)
+            for statistic, values in zip(PARTS, statistics, strict=True)
+        }
     return columns
 
 

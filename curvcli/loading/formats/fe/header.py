@@ -53,9 +53,9 @@ def parse_header(lines: SectionLines) -> DatafileHeader:
         if word in _REFUSED:
             raise InputError(f"{_REFUSED[word]} found, {_LINEAR}", place=lines.place(row))
         if word in _DIMENSIONS:
-            found = line.split()[-1]
-            if found != b"%d" % _DIMENSIONS[word]:
-                problem = f"`{word} {found[:20].decode('latin-1')}` found, {_DIMENSIONS[word]} expected"
+            value = line.split()[-1]
+            if value != b"%d" % _DIMENSIONS[word]:
+                problem = f"`{word} {value[:20].decode('latin-1')}` found, {_DIMENSIONS[word]} expected"
                 raise InputError(problem, place=lines.place(row))
             continue
         if declared := _DECLARED.match(line):
@@ -67,8 +67,8 @@ def parse_header(lines: SectionLines) -> DatafileHeader:
         if word not in ("soapfilm", "linear"):
             ignored[word] = ignored.get(word, 0) + 1
     if total := sum(ignored.values()):
-        words = ", ".join(f"`{word[:30]}`" for word in list(ignored)[:5])
-        message = f"[line|lines] of the header, ignored: {words}"
+        keywords = ", ".join(f"`{word[:30]}`" for word in list(ignored)[:5])
+        message = f"[line|lines] of the header, ignored: {keywords}"
         hint = "they change no coordinate and no facet"
         header.notices.append(Notice("ignored_statements", total, pluralize(total, message), hint))
     return header

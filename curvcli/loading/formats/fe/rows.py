@@ -53,8 +53,8 @@ class ElementRows:
         self._ends = np.flatnonzero(self._letters[separators] == NEWLINE) + 1
         self._numbers, self._known = np.asarray(numbers, np.float64), known
         begins = np.concatenate(([0], self._ends[:-1]))
-        words = np.flatnonzero(~known)
-        first = np.append(words, len(known))[np.searchsorted(words, begins)]
+        word_tokens = np.flatnonzero(~known)
+        first = np.append(word_tokens, len(known))[np.searchsorted(word_tokens, begins)]
         behind = np.minimum(first, self._ends)
         self._refuse_expressions(behind)
         self.attributed = int(np.count_nonzero(behind < self._ends))
@@ -128,11 +128,11 @@ class ElementRows:
             if numbers is None
             else np.nan_to_num(numbers, nan=15).clip(-1, 2**31 - 1).astype(np.int32)
         )
-        words = self._tokens("color")
-        if not len(words):
+        color_tokens = self._tokens("color")
+        if not len(color_tokens):
             return None
         for number, name in enumerate(COLOURS, -1):
-            tokens = np.intersect1d(words + 1, self._tokens(name), assume_unique=True)
+            tokens = np.intersect1d(color_tokens + 1, self._tokens(name), assume_unique=True)
             colour[self._rows_of(tokens)] = number
         return colour
 
@@ -147,8 +147,8 @@ class ElementRows:
         at = self._starts[candidates]
         match = np.ones(len(at), np.bool_)
         for k, letter in enumerate(word.lower().encode()):
-            here = self._letters.take(at + k, mode="clip")
-            match &= (here | 32 if chr(letter).isalpha() else here) == letter
+            letters = self._letters.take(at + k, mode="clip")
+            match &= (letters | 32 if chr(letter).isalpha() else letters) == letter
         behind = self._letters.take(at + len(word), mode="clip")
         tokens: NDArray[np.int64] = candidates[match & separates(behind)]
         return tokens
@@ -165,9 +165,9 @@ def row_of_numbers(ids: NDArray[np.int64], wanted: NDArray[Any], rows: ElementRo
     if len(twice):
         raise InputError(f"two elements with the number {int(ordered[twice[0]])} found", place=f"section of {name}")
     at = np.searchsorted(ordered, wanted)
-    there = at < len(ordered)
-    there[there] = ordered[at[there]] == wanted[there]
-    wrong = np.flatnonzero(~there)
+    known = at < len(ordered)
+    known[known] = ordered[at[known]] == wanted[known]
+    wrong = np.flatnonzero(~known)
     if len(wrong):
         row = int(
             np.searchsorted(np.cumsum(np.broadcast_to(np.asarray(rows.sizes), rows.count)), wrong[0], side="right")

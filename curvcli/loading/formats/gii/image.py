@@ -86,8 +86,8 @@ def read_image(data: bytes, max_faces: int | None = None) -> Image:
         raise InputError("no element GIFTI found")
     arrays = tuple(parser.array(number, array) for number, array in enumerate(parser.img.darrays))
     table = {label.key: label for label in parser.img.labeltable.labels}
-    parts = {key: (label.red, label.green, label.blue) for key, label in table.items()}
-    colors = {key: color for key, color in parts.items() if None not in color}
+    channels = {key: (label.red, label.green, label.blue) for key, label in table.items()}
+    colors = {key: color for key, color in channels.items() if None not in color}
     # The attribute is missing for an element without text.
     return Image(arrays, {key: escape_text(getattr(label, "label", "")) for key, label in table.items()}, colors)
 
@@ -243,5 +243,5 @@ def _from_base64(text: str) -> bytes:
         raise InputError(f"malformed base64 data found ({escape_text(str(error))[:60]})") from None
 
 
-def _other_size(found: str, shape: tuple[int, ...], kind: np.dtype[Any]) -> InputError:
-    return InputError(f"{found} found, {math.prod(shape) * kind.itemsize} expected for {kind} in the shape {shape}")
+def _other_size(size: str, shape: tuple[int, ...], kind: np.dtype[Any]) -> InputError:
+    return InputError(f"{size} found, {math.prod(shape) * kind.itemsize} expected for {kind} in the shape {shape}")

@@ -50,14 +50,14 @@ def parse_gifti(data: bytes, *, max_faces: int | None = None) -> MeshFile:
 
 def _single(arrays: tuple[DataArray, ...], intent: int, name: str, kinds: str) -> DataArray:
     """The only array of an intent, in rows of three."""
-    places = [place for place, array in enumerate(arrays) if array.intent == intent]
-    if len(places) != 1:
-        hint = "files of values and labels lie beside a surface, such as lh.surf.gii" if not places else None
-        raise InputError(f"{number_of(len(places), 'array')} of {name} found, one expected", hint=hint)
-    array = arrays[places[0]]
+    indices = [place for place, array in enumerate(arrays) if array.intent == intent]
+    if len(indices) != 1:
+        hint = "files of values and labels lie beside a surface, such as lh.surf.gii" if not indices else None
+        raise InputError(f"{number_of(len(indices), 'array')} of {name} found, one expected", hint=hint)
+    array = arrays[indices[0]]
     if array.values.ndim != 2 or array.values.shape[1] != 3 or array.values.dtype.kind not in kinds:
-        found = f"{array.values.dtype.name} in the shape {array.values.shape} found"
-        raise InputError(f"{name}: {found}, rows of three expected", place=f"data array {places[0]}")
+        layout = f"{array.values.dtype.name} in the shape {array.values.shape} found"
+        raise InputError(f"{name}: {layout}, rows of three expected", place=f"data array {indices[0]}")
     return array
 
 

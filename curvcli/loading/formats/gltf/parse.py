@@ -99,49 +99,53 @@ def _parse(
     """
     placed = placed_meshes(tree)
     used = sorted({mesh for _, mesh, _ in placed})
-    parts: dict[int, list[Primitive]] = {}
+    primitives_of: dict[int, list[Primitive]] = {}
     for mesh in used:
         primitives = tree.meshes[mesh].primitives
-        parts[mesh] = [one for one in primitives if one.mode >= TRIANGLES]
+        primitives_of[mesh] = [primitive for primitive in primitives if primitive.mode >= TRIANGLES]
         for k, primitive in enumerate(primitives):
             if primitive.mode >= TRIANGLES:
                 check_primitive(tree, primitive, f"mesh {mesh}, primitive {k}")
-    _check_size(tree, parts, placed, size, max_faces)
-    if not any(parts.values()):
+    _check_size(tree, primitives_of, placed, size, max_faces)
+    if not any(primitives_of.values()):
         raise InputError("no faces", hint="a surface needs a node with a mesh of triangles")
     buffers = _buffers(tree, binary)
-    arrays = _decoded(tree, parts, buffers)
-    return _assembled(tree, parts, placed, arrays, name, notices)
+    arrays = _decoded(tree, primitives_of, buffers)
+    return _assembled(tree, primitives_of, placed, arrays, name, notices)
 
 
 def _check_size(
-    tree: Tree, parts: dict[int, list[Primitive]], placed: list[tuple[int, int, Matrix]], size: int, most: int | None
+    tree: Tree,
+    primitives_of: dict[int, list[Primitive]],
+    placed: list[tuple[int, int, Matrix]],
+    size: int,
+    most: int | None,
 ) -> None:
-    copies = sum(len(parts[mesh]) for _, mesh, _ in placed)
+    copies = sum(len(primitives_of[mesh]) for _, mesh, _ in placed)
     check_copies(copies, 0, 0, size, most)
     faces = vertices = 0
     for _, mesh, _ in placed:
-        for one in parts[mesh]:
-            position = tree.accessors[one.position].count
-            corners = position if one.indices is None else tree.accessors[one.indices].count
-            faces += corners // 3 if one.mode == TRIANGLES else max(0, corners - 2)
-        vertices += sum(tree.accessors[at].count for at in {one.position for one in parts[mesh]})
+        for primitive in primitives_of[mesh]:
+            position = tree.accessors[primitive.position].count
+            corners = position if primitive.indices is None else tree.accessors[primitive.indices].count
+            faces += corners // 3 if primitive.mode == TRIANGLES else max(0, corners - 2)
+        vertices += sum(tree.accessors[at].count for at in {primitive.position for primitive in primitives_of[mesh]})
     check_copies(copies, vertices, faces, size, most)
 
 
-def _decoded(tree: Tree, parts: dict[int, list[Primitive]], buffers: list[bytes]) -> list[dict[str, Any]]:
+def _decoded(tree: Tree, primitives_of: dict[int, list[Primitive]], buffers: list[bytes]) -> list[dict[str, Any]]:
     """The arrays of all primitives in their order, by trimesh: a file with nothing but these is given to its loader."""
     from trimesh.exchange.gltf import load_glb
 
     kept: dict[int, int] = {}
     meshes = []
-    for primitives in parts.values():
-        for one in primitives:
-            names = [*_extra(tree, one)]
-            attributes = {name: kept.setdefault(one.attributes[name], len(kept)) for name in ("POSITION", *names)}
-            reduced = {"attributes": attributes, "mode": one.mode}
-            if one.indices is not None:
-                reduced["indices"] = kept.setdefault(one.indices, len(kept))
+    for primitives in primitives_of.values():
+        for primitive in primitives:
+            names = [*_extra(tree, primitive)]
+            attributes = {name: kept.setdefault(primitive.attributes[name], len(kept)) for name in ("POSITION", *names)}
+            reduced = {"attributes": attributes, "mode": primitive.mode}
+            if primitive.indices is not None:
+                reduced["indices"] = kept.setdefault(primitive.indices, len(kept))
             meshes.append({"primitives": [reduced]})
     offsets = [0, *accumulate(len(buffer) for buffer in buffers)]
     views, accessors = [], []
@@ -187,13 +191,13 @@ def _extra(tree: Tree, primitive: Primitive) -> Iterator[str]:
 
 def _assembled(
     tree: Tree,
-    parts: dict[int, list[Primitive]],
+    primitives_of: dict[int, list[Primitive]],
     placed: list[tuple[int, int, Matrix]],
     arrays: list[dict[str, Any]],
     name: str,
     notices: list[Notice],
 ) -> MeshFile:
-    first = dict(zip(parts, np.cumsum([0, *map(len, parts.values())]).tolist(), strict=False))
+    first = dict(zip(primitives_of, np.cumsum([0, *map(len, primitives_of.values())]).tolist(), strict=False))
     points: list[NDArray[Any]] = []
     corners: list[NDArray[np.int32]] = []
     columns: list[tuple[int, dict[str, NDArray[Any]]]] = []
@@ -202,22 +206,24 @@ def _assembled(
     rows = 0
     for number, (_, mesh, matrix) in enumerate(placed):
         begins: dict[int, int] = {}
-        for one, content in zip(parts[mesh], arrays[first[mesh] :], strict=False):
-            if one.position not in begins:
-                begins[one.position] = rows
-                points.append(transformed(_positions(tree, one, content), matrix))
+        for primitive, content in zip(primitives_of[mesh], arrays[first[mesh] :], strict=False):
+            if primitive.position not in begins:
+                begins[primitive.position] = rows
+                points.append(transformed(_positions(tree, primitive, content), matrix))
                 columns.append((rows, _properties(content)))
                 rows += len(points[-1])
             count = len(content["vertices"])
             faces = np.asarray(content["faces"])
             place = f"mesh {mesh}: triangle"
-            own = checked_corners(faces.reshape(-1), 3, place, count).reshape(-1, 3) + np.int32(begins[one.position])
+            own = checked_corners(faces.reshape(-1), 3, place, count).reshape(-1, 3) + np.int32(
+                begins[primitive.position]
+            )
             corners.append(turned(own, matrix))
             nodes.append((number, len(own)))
-            materials.append((-1 if one.material is None else one.material, len(own)))
+            materials.append((-1 if primitive.material is None else primitive.material, len(own)))
     if not sum(map(len, corners)):
         raise InputError("no faces", hint="a surface needs a node with a mesh of triangles")
-    notices = [*notices, *_ignored(tree, parts)]
+    notices = [*notices, *_ignored(tree, primitives_of)]
     return MeshFile(
         name,
         np.ascontiguousarray(np.concatenate(points).T),
@@ -259,17 +265,17 @@ def _merged(columns: list[tuple[int, dict[str, NDArray[Any]]]], rows: int) -> di
     return merged
 
 
-def _ignored(tree: Tree, parts: dict[int, list[Primitive]]) -> list[Notice]:
-    others = sum(one.mode < TRIANGLES for mesh in parts for one in tree.meshes[mesh].primitives)
-    moving = sum(bool(one.targets) for primitives in parts.values() for one in primitives)
+def _ignored(tree: Tree, primitives_of: dict[int, list[Primitive]]) -> list[Notice]:
+    others = sum(primitive.mode < TRIANGLES for mesh in primitives_of for primitive in tree.meshes[mesh].primitives)
+    moving = sum(bool(primitive.targets) for primitives in primitives_of.values() for primitive in primitives)
     skins = sum(node.skin is not None for node in tree.nodes)
-    words = [
+    kinds = [
         (others, "[primitive|primitives] of points or lines"),
         (moving, "[primitive|primitives] with morph targets"),
         (skins, "[node|nodes] with a skin, in [its|their] bind pose"),
     ]
-    found = [f"{count} {pluralize(count, word)}" for count, word in words if count]
-    if not found:
+    phrases = [f"{count} {pluralize(count, word)}" for count, word in kinds if count]
+    if not phrases:
         return []
-    message = f"parts of the scene that are no triangles at rest, ignored: {', '.join(found)}"
+    message = f"parts of the scene that are no triangles at rest, ignored: {', '.join(phrases)}"
     return [Notice("ignored_parts", others + moving + skins, message, "export a still mesh to have them")]

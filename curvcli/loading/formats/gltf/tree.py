@@ -146,8 +146,8 @@ def check_primitive(tree: Tree, primitive: Primitive, place: str) -> None:
     """Check the accessors of a primitive. Errors: InputError."""
     for extension in primitive.extensions:
         position = primitive.attributes.get("POSITION")
-        plain = position is not None and position < len(tree.accessors) and tree.accessors[position].buffer_view
-        if _COMPRESSED.search(extension) and plain is None:
+        fallback = position is not None and position < len(tree.accessors) and tree.accessors[position].buffer_view
+        if _COMPRESSED.search(extension) and fallback is None:
             _refuse_extension(extension)
     if "POSITION" not in primitive.attributes:
         raise InputError("no attribute `POSITION` found", place=place)
@@ -196,9 +196,9 @@ def embedded(buffer: Buffer, number: int) -> str:
     uri = buffer.uri or ""
     mark = _DATA.match(uri)
     if mark is None:
-        found = f"`{uri[:60]}`" if uri else "no data"
+        content = f"`{uri[:60]}`" if uri else "no data"
         hint = "export it as .glb, which holds its buffers"
-        raise InputError(f"{found} found, data inside the file expected", place=f"buffer {number}", hint=hint)
+        raise InputError(f"{content} found, data inside the file expected", place=f"buffer {number}", hint=hint)
     return uri[mark.end() :]
 
 

@@ -51,11 +51,11 @@ def parse_msh(data: bytes, options: ParserOptions) -> MeshFile:
     while section := _SECTION.match(data, at):
         name, begin = decode(section[1][:40]), section.end()
         if name == "MeshFormat":
-            found = _FORMAT.match(data, begin)
-            if found is None or (int(found[1]), int(found[2] or b"0")) < (2, 0):
+            header = _FORMAT.match(data, begin)
+            if header is None or (int(header[1]), int(header[2] or b"0")) < (2, 0):
                 raise InputError("version, file type and size of a number expected", place="$MeshFormat")
-            version = int(found[1]), int(found[2] or b"0")
-            binary, word, begin = found[3] == b"1", int(found[4]), found.end()
+            version = int(header[1]), int(header[2] or b"0")
+            binary, word, begin = header[3] == b"1", int(header[4]), header.end()
             if binary:
                 order = ">" if data[begin : begin + 4] == b"\0\0\0\1" else "<"
                 begin += 4
@@ -141,5 +141,5 @@ def _groups(numbers: NDArray[np.int64], names: dict[tuple[int, int], str]) -> li
     if not numbers.any():
         return []
     different, place = np.unique(numbers, return_inverse=True)
-    words = [None if number == 0 else names.get((2, number), str(number)) for number in different.tolist()]
-    return [words[k] for k in place.tolist()]
+    labels = [None if number == 0 else names.get((2, number), str(number)) for number in different.tolist()]
+    return [labels[k] for k in place.tolist()]

@@ -168,9 +168,9 @@ def _column(records: Records, k: int | NDArray[np.int64]) -> NDArray[np.float64]
     assert records.values is not None
     sizes = np.asarray(records.sizes)
     at = np.cumsum(sizes) - sizes + k
-    there = np.broadcast_to(np.asarray(k) < sizes, at.shape)
+    present = np.broadcast_to(np.asarray(k) < sizes, at.shape)
     values = np.full(len(sizes), np.nan)
-    values[there] = records.values[at[there]]
+    values[present] = records.values[at[present]]
     return values
 
 

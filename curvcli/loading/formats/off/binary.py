@@ -28,11 +28,11 @@ def read_binary(pieces: Pieces, keyword: Keyword, max_faces: int | None) -> tupl
         raise InputError(f"{announced}, more than the {pieces.left} bytes that follow can hold")
     check_faces(faces, max_faces)
     data = pieces.rest()
-    words = np.frombuffer(data, ">u4", len(data) // 4)
+    numbers = np.frombuffer(data, ">u4", len(data) // 4)
     with np.errstate(invalid="ignore"):
-        rows = words[: vertices * width].view(">f4").reshape(vertices, width).astype(np.float64)
+        rows = numbers[: vertices * width].view(">f4").reshape(vertices, width).astype(np.float64)
     columns = list(np.ascontiguousarray(rows.T))
-    body = words[vertices * width :]
+    body = numbers[vertices * width :]
     sizes, extra = _even(body, faces) or _uneven(body, faces)
     per_face = np.broadcast_to(np.asarray(sizes, np.int64), faces), np.broadcast_to(np.asarray(extra, np.int64), faces)
     corner, colour = _masks(*per_face)
@@ -60,13 +60,13 @@ def _even(body: NDArray[np.uint32], faces: int) -> tuple[int, int] | None:
 
 def _uneven(body: NDArray[np.uint32], faces: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Corners and components of each face. A Python loop, because the place of a face depends on the face before."""
-    words, at, sizes, extra = body.tolist(), 0, [0] * faces, [0] * faces
+    numbers, at, sizes, extra = body.tolist(), 0, [0] * faces, [0] * faces
     for row in range(faces):
-        size = words[at] if at < len(words) else len(words)
+        size = numbers[at] if at < len(numbers) else len(numbers)
         after = at + 1 + size
-        count = words[after] if after < len(words) else len(words)
+        count = numbers[after] if after < len(numbers) else len(numbers)
         at = after + 1 + count
-        if at > len(words):
+        if at > len(numbers):
             raise InputError(f"the data end inside a face of {number_of(size, 'corner')}", place=f"face {row}")
         sizes[row], extra[row] = size, count
     return np.array(sizes, np.int64), np.array(extra, np.int64)

@@ -48,9 +48,9 @@ def parse_keyword(word: str) -> Keyword:
     """
     letters = word.removesuffix("OFF")
     if "4" in letters or "n" in letters:
-        found = "homogeneous positions of four numbers" if "4" in letters else "positions of any dimension"
+        kind = "homogeneous positions of four numbers" if "4" in letters else "positions of any dimension"
         hint = "OFF with x, y, z divided by w" if "4" in letters else "OFF with x, y, z only"
-        raise InputError(f"`{word[:20]}` found, {found}; positions of three numbers expected", hint=f"write {hint}")
+        raise InputError(f"`{word[:20]}` found, {kind}; positions of three numbers expected", hint=f"write {hint}")
     fields = tuple(reversed(_FIELDS.findall(letters)))
     if len(set(fields)) < len(fields):
         raise InputError(f"`{word[:20]}` found, each of the letters C, N and ST expected at most once")

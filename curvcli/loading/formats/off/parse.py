@@ -67,9 +67,9 @@ def _counts(text: bytes) -> tuple[int, int, int]:
         if len(counts) == 2 and lines[0] == lines[1] < line:
             break
         if not _COUNT.fullmatch(token[0]):
-            found = token[0][:40].decode("utf-8", "backslashreplace")
+            spelling = token[0][:40].decode("utf-8", "backslashreplace")
             expected = "`OFF`, or the" if not begin and not counts else "the"
-            problem = f"`{found}` found, {expected} number of {('vertices', 'faces', 'edges')[len(counts)]} expected"
+            problem = f"`{spelling}` found, {expected} number of {('vertices', 'faces', 'edges')[len(counts)]} expected"
             raise InputError(problem, place=f"line {line + 1}")
         counts.append(int(token[0]))
         lines.append(line)

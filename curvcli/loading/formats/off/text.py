@@ -102,11 +102,11 @@ class _Reader:
 
     def _even(self, rows: bytes, count: int) -> tuple[int, NDArray[Any], int, NDArray[Any]] | None:
         """Faces with as many corners and numbers of colour as the first; None if any differs."""
-        words = rows[: rows.index(b"\n")].split()
-        if not words or not words[0].isdigit() or not int(words[0]) < len(words) <= _WIDEST:
+        tokens = rows[: rows.index(b"\n")].split()
+        if not tokens or not tokens[0].isdigit() or not int(tokens[0]) < len(tokens) <= _WIDEST:
             return None
-        size, extra = int(words[0]), len(words) - 1 - int(words[0])
-        columns = read_columns(rows, len(words), np.float64 if extra else np.int32)
+        size, extra = int(tokens[0]), len(tokens) - 1 - int(tokens[0])
+        columns = read_columns(rows, len(tokens), np.float64 if extra else np.int32)
         if columns is None or not (columns[0] == size).all():
             return None
         corners = np.empty((count, size), np.float64 if extra else np.int32)

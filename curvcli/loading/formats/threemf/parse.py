@@ -46,7 +46,9 @@ def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
                 vertices, faces = vertices + len(part.points), faces + len(part.faces)
                 count += len(part.faces)
             inner = model.components[each]
-            stack += [(one, _key(other or key), product(outer, own), depth + 1) for one, other, own in reversed(inner)]
+            stack += [
+                (child, _key(other or key), product(outer, own), depth + 1) for child, other, own in reversed(inner)
+            ]
             copies += len(inner)
             check_copies(copies, vertices, faces, len(data), max_faces)
         runs.append((number, count))

@@ -37,8 +37,8 @@ def _even(text: bytes, element: str, names: Sequence[str], dtype: type[np.generi
     if first is None or first[1].rpartition(b":")[2] != element.encode():
         return None
     attributes = list(_ATTRIBUTE.finditer(first[2]))
-    found = [match[1].decode("ascii", "replace") for match in attributes]
-    if sorted(found) != sorted(names):
+    attribute_names = [match[1].decode("ascii", "replace") for match in attributes]
+    if sorted(attribute_names) != sorted(names):
         return None
     # Text before the first value, between two values, and from the last value to the first of the next element.
     begin, starts = first.start(2), [match.start(2) for match in attributes]
@@ -54,7 +54,7 @@ def _even(text: bytes, element: str, names: Sequence[str], dtype: type[np.generi
     for separator in between:
         lines = lines.replace(separator, b" ")
     columns = None if b"_" in lines else read_columns(lines + b"\n", len(names), dtype)
-    return None if columns is None else [columns[found.index(name)] for name in names]
+    return None if columns is None else [columns[attribute_names.index(name)] for name in names]
 
 
 def _one_by_one(
@@ -69,14 +69,14 @@ def _one_by_one(
         raise InputError(f"damaged XML found ({error})", place=f"elements `{element}`") from None
     columns = []
     for name in names:
-        words = [row.get(name, "") for row in rows]
+        texts = [row.get(name, "") for row in rows]
         try:
-            column = np.array(words, np.float64 if words else dtype)
-            if any("_" in word for word in words) or (dtype is np.int32 and (column % 1 != 0).any()):
+            column = np.array(texts, np.float64 if texts else dtype)
+            if any("_" in word for word in texts) or (dtype is np.int32 and (column % 1 != 0).any()):
                 raise ValueError
         except ValueError:
             kind = "whole number" if dtype is np.int32 else "number"
-            number, word = next((k, word) for k, word in enumerate(words) if not _is_number(word, dtype))
+            number, word = next((k, word) for k, word in enumerate(texts) if not _is_number(word, dtype))
             problem = f"`{name}` is {word[:40]!r}, a {kind} expected"
             raise InputError(problem, place=f"{element} {number}") from None
         columns.append(column)
