@@ -17,7 +17,7 @@ from ..support.arrays import Mask
 from ..support.words import suggestion
 
 
-def with_regions(
+def settings_by_region(
     settings: EstimatorSettings, values: Mapping[str, SettingValue], regions: Regions | None
 ) -> EstimatorSettings:
     """The settings with the parameters that have values by region; faces of other regions and of none get the value
@@ -40,21 +40,21 @@ def with_regions(
     return replace(settings, values={**settings.values, **of_faces})
 
 
-def splits_itself(name: str, settings: EstimatorSettings) -> bool:
+def splits_faces(name: str, settings: EstimatorSettings) -> bool:
     """True for a measure whose pass splits it over the faces, where one of its settings differs between them."""
     owner = passes.provider(name.partition(AT_SCALE)[0])
     values = (settings.values.get(each.key(owner.name), 0.0) for each in owner.settings)
     return owner.of_faces is not None and any(np.ndim(value) for value in values)
 
 
-def turns(name: str, settings: EstimatorSettings) -> bool:
+def is_odd(name: str, settings: EstimatorSettings) -> bool:
     """True for a measure with a setting that changes sign with the orientation and is not 0 everywhere."""
     owner = passes.provider(name.partition(AT_SCALE)[0])
     odd = (settings.values.get(each.key(owner.name), each.default) for each in owner.settings if each.parity == "odd")
     return any(bool(np.any(value)) for value in odd)
 
 
-def on_faces(settings: EstimatorSettings, mask: Mask) -> EstimatorSettings:
+def settings_of_faces(settings: EstimatorSettings, mask: Mask) -> EstimatorSettings:
     """The settings of the surface of some faces."""
     values = {name: value[mask] if np.ndim(value) else value for name, value in settings.values.items()}
     return replace(settings, values=values)

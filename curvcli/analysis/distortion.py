@@ -40,18 +40,18 @@ def circumcentric_areas(t: Triangles) -> list[Floats]:
         return [w + u, u + v, v + w]
 
 
-def distorted(surface: Surface, columns: Mapping[str, Any]) -> tuple[NDArray[np.intp], float]:
+def distorted_stars(surface: Surface, columns: Mapping[str, Any]) -> tuple[NDArray[np.intp], float]:
     """Interior vertices of distorted stars, and the part of Σ|K| that they carry; none where that is less than a
     tenth. K that rounding of the coordinates explains does not count."""
     none = np.empty(0, np.intp), 0.0
-    if not _possible(surface, columns):
+    if not _may_be_distorted(surface, columns):
         return none
     area = np.zeros(surface.n_vertices)
     for block in slices(surface.n_faces):
         t = triangles(surface.xyz, surface.faces[block])
         for corner, part in zip(t.corners, circumcentric_areas(t), strict=True):
             np.add.at(area, corner, part)
-    beyond = _beyond(area, columns["star_area"])
+    beyond = _exceeds_factor(area, columns["star_area"])
     size = _size(columns["K"], columns["h_signed"])
     if not size[beyond].sum() >= _PART * size.sum() > 0:
         return none
@@ -60,7 +60,7 @@ def distorted(surface: Surface, columns: Mapping[str, Any]) -> tuple[NDArray[np.
     return (np.flatnonzero(beyond & (size > 0)), float(carried / whole)) if carried >= _PART * whole > 0 else none
 
 
-def _possible(surface: Surface, columns: Mapping[str, Any]) -> bool:
+def _may_be_distorted(surface: Surface, columns: Mapping[str, Any]) -> bool:
     """False if distorted stars surely carry less than a tenth of Σ|K|, by a sample of corners: A°/A of a star is the
     mean of its faces, so that a distorted star has such a face, one of 16 at least."""
     t = triangles(surface.xyz, surface.faces[:: max(surface.n_faces // _SAMPLE, 1)])
@@ -68,7 +68,7 @@ def _possible(surface: Surface, columns: Mapping[str, Any]) -> bool:
     for corner, part in zip(t.corners, circumcentric_areas(t), strict=True):
         size = _size(columns["K"][corner], columns["h_signed"][corner])
         whole += float(size.sum())
-        carried += float(size[_beyond(part, t.twice_area / 6)].sum())
+        carried += float(size[_exceeds_factor(part, t.twice_area / 6)].sum())
     return carried >= _PART / 16 * whole > 0
 
 
@@ -77,7 +77,7 @@ def _size(K: Floats, h_signed: Floats) -> Floats:
     return np.where(np.isfinite(K) & np.isfinite(h_signed), np.abs(K), 0.0)
 
 
-def _beyond(circumcentric: Floats, barycentric: Floats) -> Mask:
+def _exceeds_factor(circumcentric: Floats, barycentric: Floats) -> Mask:
     beyond: Mask = ~((circumcentric * FACTOR >= barycentric) & (circumcentric <= FACTOR * barycentric))
     return beyond
 

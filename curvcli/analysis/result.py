@@ -28,10 +28,10 @@ from ..mesh.scale import DEFAULTS, EstimatorSettings, parse_scales
 from ..mesh.surface import Surface
 from ..support.arrays import Array, Floats, or_none
 from . import notices as findings
-from .by_region import on_faces, splits_itself, with_regions
+from .by_region import settings_by_region, settings_of_faces, splits_faces
 from .columns import Columns, named
 from .request import Request
-from .scale_notices import beside, of_stars, unscaled
+from .scale_notices import needs_of_stars, not_at_scale, star_notices
 from .shares import Partition
 from .totals import columns_for, overflow_counts, summed, totals
 
@@ -62,7 +62,7 @@ class Result:
     ) -> None:
         self.surface, self.request, self.regions = surface, request, regions
         self.chosen, self.conventions = request.chosen, request.conventions(surface)
-        self.settings = settings or with_regions(request.settings, request.values, regions)
+        self.settings = settings or settings_by_region(request.settings, request.values, regions)
         self.timings: dict[str, float] = {}
         self.extra_notices: list[Notice] = []
         self.configuration: Configuration | None = None
@@ -73,7 +73,7 @@ class Result:
             *_ALWAYS,
             *self._totalled,
             *self._flags,
-            *beside(self.chosen),
+            *needs_of_stars(self.chosen),
             *(("star_extent",) if "h_signed" in self.chosen else ()),  # of the rounding of H
             *(need for rule in self._rules for need in rule.needs),
         ]
@@ -97,7 +97,7 @@ class Result:
                 besides=(),
             )
             names = [rule.name for rule in self._rules if not rule.of_shares]
-            self.cut = Result(cut, alone, checks=names, settings=on_faces(self.settings, regions.face >= 0))
+            self.cut = Result(cut, alone, checks=names, settings=settings_of_faces(self.settings, regions.face >= 0))
 
     @cached_property
     def _closure(self) -> set[str]:
@@ -212,7 +212,7 @@ class Result:
             return []
         area, borders = self.columns["face_area"], self._borders
         partition = Partition(self.surface, self.regions.face, self.regions.count, area, borders)
-        split = {name: self._split(name) for name in self._totalled if splits_itself(name, self.settings)}
+        split = {name: self._split(name) for name in self._totalled if splits_faces(name, self.settings)}
         return partition.shares({name: self.columns[name] for name in self._totalled}, split, self.settings)
 
     def _split(self, name: str) -> tuple[Floats, Floats]:
@@ -260,7 +260,7 @@ class Result:
     def _findings(self) -> list[Notice]:
         notices = findings.of_surface(self.surface, self.columns)
         asked = self.settings.scales != DEFAULTS.scales
-        notices += of_stars(self.surface, self.columns, self.chosen, self.totals, asked)
+        notices += star_notices(self.surface, self.columns, self.chosen, self.totals, asked)
         notices += findings.out_of_range(overflow_counts(self.surface, self.columns, self.chosen))
         if self.cut is not None and self.regions is not None:
             notices += region_notices(self.cut.surface, self.cut_groups, self.regions)
@@ -287,5 +287,5 @@ def compute(given: Any, request: Request, kind: type[Kind]) -> Kind:
     labels = request.labels
     checks = request.named_checks
     result = kind(surface, request, None if labels is None else find_regions(surface, labels), checks)
-    result.extra_notices += unscaled(request.chosen, parse_scales(request.rings, request.radius))
+    result.extra_notices += not_at_scale(request.chosen, parse_scales(request.rings, request.radius))
     return result

@@ -17,7 +17,7 @@ from ..mesh.scale import Scale
 from ..mesh.surface import Surface
 from ..mesh.triangles import EPSILON, dot
 from ..support.words import format_rounded
-from .distortion import FACTOR, distorted
+from .distortion import FACTOR, distorted_stars
 
 _SCALED = ("willmore_ring", "willmore_corrected", "willmore_fit")
 _ENERGIES = ("willmore", "willmore_hks", "willmore_perp", "willmore_normal", "helfrich")
@@ -52,7 +52,7 @@ def counterparts(quantity: Quantity) -> list[str]:
     ]
 
 
-def unscaled(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notice]:
+def not_at_scale(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notice]:
     """Notice of chosen columns that ignore the given scale although estimates of the same curvature have one.
 
     A column is left out if one of its estimates is chosen too.
@@ -74,20 +74,20 @@ def unscaled(chosen: Iterable[str], scales: tuple[Scale, ...]) -> Iterator[Notic
         )
 
 
-def beside(chosen: Iterable[str]) -> tuple[str, ...]:
-    """Columns that `of_stars` needs to judge the chosen ones."""
+def needs_of_stars(chosen: Iterable[str]) -> tuple[str, ...]:
+    """Columns that `star_notices` needs to judge the chosen ones."""
     base_names = {name.partition(AT_SCALE)[0] for name in chosen}
     return () if base_names.isdisjoint(STARS) else ("h_signed",)
 
 
-def of_stars(
+def star_notices(
     surface: Surface, columns: Mapping[str, Any], chosen: Iterable[str], totals: Mapping[str, Any], asked: bool
 ) -> Iterator[Notice]:
     """Notices of densities and energies of stars: on a creased mesh, and of energies on a rough one.
 
     chosen: the columns shown. totals: by the report's keys. asked: whether a scale is given.
     """
-    if "h_signed" not in columns or not beside(chosen):
+    if "h_signed" not in columns or not needs_of_stars(chosen):
         return
     sharp = creases(surface, columns)
     if len(sharp):
@@ -101,7 +101,7 @@ def of_stars(
             "H_vec stay exact",
         )
         return
-    vertices, part = distorted(surface, columns)
+    vertices, part = distorted_stars(surface, columns)
     if len(vertices):
         yield Notice.at(
             "distorted_stars",

@@ -18,7 +18,7 @@ from ..mesh.groups import Groups, Segments
 from ..mesh.scale import DEFAULTS, EstimatorSettings
 from ..mesh.surface import Surface
 from ..support.arrays import Floats
-from .by_region import turns
+from .by_region import is_odd
 
 
 def totals(
@@ -96,7 +96,7 @@ def summed(names: Collection[str], settings: EstimatorSettings = DEFAULTS) -> li
     for name in names:
         at.setdefault(name.partition(AT_SCALE)[0], []).append(name)
     named = [passes.quantity(name) for quantity in passes.totals() for name in at.get(quantity.name, ())]
-    return [replace(quantity, parity="odd") if turns(quantity.name, settings) else quantity for quantity in named]
+    return [replace(quantity, parity="odd") if is_odd(quantity.name, settings) else quantity for quantity in named]
 
 
 def columns_for(derived: Iterable[DerivedTotal]) -> list[str]:

@@ -8,7 +8,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 from ..errors import UsageError
-from ..support.order import in_order
+from ..support.order import topological_order
 from ..support.words import suggestion
 from .base import CheckRule, registered
 
@@ -29,7 +29,7 @@ def identities() -> dict[str, CheckRule]:
     """The identities by name: built-ins in the order of the report, then those of plug-ins that are loaded."""
     _load_built_ins()
     built_ins_first = sorted(registered.items(), key=lambda entry: not entry[1].function.__module__.startswith(_OWN))
-    return dict(in_order(built_ins_first, lambda entry: entry[0], lambda entry: entry[1].after))
+    return dict(topological_order(built_ins_first, lambda entry: entry[0], lambda entry: entry[1].after))
 
 
 def named_checks(names: str | Iterable[str]) -> list[str]:

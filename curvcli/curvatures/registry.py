@@ -17,7 +17,7 @@ from typing import Any, get_args
 
 from ..errors import UsageError
 from ..mesh.scale import PARAMETERS
-from ..support.order import in_order
+from ..support.order import topological_order
 from ..support.words import suggestion
 from .quantity import AT_SCALE, CELL_AREA, MASKS, NO_QUANTITIES, SURFACE, Element, Quantity
 from .setting import Setting, split_signature
@@ -195,7 +195,7 @@ class Registry(Mapping[str, Pass]):
     def quantities(self, on: Element | None = None, public: bool = True) -> list[Quantity]:
         """Quantities in the order of the tables, vertices first; others follow in the order of declaration."""
         elements = get_args(Element) if on is None else (on,)
-        placed = in_order(self._declared(), lambda quantity: quantity.name, lambda quantity: quantity.after)
+        placed = topological_order(self._declared(), lambda quantity: quantity.name, lambda quantity: quantity.after)
         return [
             quantity
             for element in elements
@@ -206,12 +206,15 @@ class Registry(Mapping[str, Pass]):
     def totals(self) -> list[Quantity]:
         """Quantities with a total, in the order of the report."""
         declared = (quantity for quantity in self._declared() if quantity.total)
-        return in_order(declared, lambda quantity: quantity.total or "", lambda quantity: quantity.total_after)
+        return topological_order(declared, lambda quantity: quantity.total or "", lambda quantity: quantity.total_after)
 
     def flags(self) -> list[Quantity]:
         """Hidden flags with a notice, in the order of the notices."""
         noticed = [(quantity, quantity.notice) for quantity in self._declared() if quantity.notice]
-        return [quantity for quantity, _ in in_order(noticed, lambda pair: pair[1].code, lambda pair: pair[1].after)]
+        return [
+            quantity
+            for quantity, _ in topological_order(noticed, lambda pair: pair[1].code, lambda pair: pair[1].after)
+        ]
 
     def column(self, name: str, on: Element = "vertex") -> Quantity | None:
         """The quantity of a column of a table, also at a scale (`K_fit_2e`); None for other columns."""

@@ -33,7 +33,7 @@ def check_copies(copies: int, vertices: int, faces: int, size: int, max_faces: i
         raise InputError(f"copies of meshes with {number_of(faces, 'face')} in all, too many for {size} bytes")
 
 
-def product(outer: Matrix, inner: Matrix) -> Matrix:
+def compose(outer: Matrix, inner: Matrix) -> Matrix:
     """outer · inner, exact where one of them is the identity."""
     if (inner == np.eye(4)).all():
         return outer
@@ -50,7 +50,7 @@ def transformed(points: NDArray[np.float64], matrix: Matrix) -> NDArray[np.float
         return points + shift if shift.any() else points
 
 
-def turned(faces: NDArray[np.int32], matrix: Matrix) -> NDArray[np.int32]:
+def flip_mirrored(faces: NDArray[np.int32], matrix: Matrix) -> NDArray[np.int32]:
     """Faces (n, 3), wound the other way round if the transform mirrors them."""
     with np.errstate(over="ignore", invalid="ignore"):
         mirrors = np.linalg.det(matrix[:3, :3]) < 0
@@ -71,7 +71,7 @@ def label_faces(codes: NDArray[np.integer], names: list[str]) -> Labels:
     return Labels(new[codes], tuple(names[k] for k in used.tolist()))
 
 
-def distinct(names: list[str]) -> list[str]:
+def unique_names(names: list[str]) -> list[str]:
     """Names of which each stands once: a repeated one gets its number."""
     seen: set[str] = set()
     for k in range(len(names)):

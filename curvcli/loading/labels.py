@@ -21,7 +21,7 @@ from ..mesh.groups import Groups, by_label
 from ..mesh.surface import CutFrom, Surface
 from ..support.arrays import Index, Mask
 from ..support.words import suggestion
-from .copies import distinct
+from .copies import unique_names
 from .face_labels import face_labels
 from .label_files.base import LabelFile
 from .label_files.read import is_label_file, read_labels
@@ -154,7 +154,7 @@ def _regions(surface: Surface, given: LabelFile, source: str) -> Regions:
     new = np.full(len(labels.names) + 1, -1, np.int32)
     new[used] = np.arange(len(used))
     unused = np.flatnonzero(named & ~of_faces)
-    every = distinct(list(labels.names))
+    every = unique_names(list(labels.names))
     names, others = (tuple(every[code] for code in some.tolist()) for some in (used, unused))
     colors = None if labels.colors is None else labels.colors[used]
     return Regions(new[labels.codes], names, others, colors, tuple(notices))

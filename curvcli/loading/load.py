@@ -8,7 +8,7 @@ from typing import Any, BinaryIO, Literal
 from ..errors import UsageError
 from ..mesh.polygons import from_file
 from ..mesh.surface import Orient, Surface
-from .given import file_of
+from .library_meshes import mesh_file_of
 from .objects import is_stream, refusal
 
 
@@ -78,7 +78,7 @@ def as_surface(
     orient = orient or "file"
     if isinstance(given, str | os.PathLike) or is_stream(given):
         return load(given, orient=orient, weld=weld, normals=normals)
-    if not isinstance(given, tuple | list | dict) and (file := file_of(given)) is not None:
+    if not isinstance(given, tuple | list | dict) and (file := mesh_file_of(given)) is not None:
         _check_weld(weld, "none")
         return from_file(file, orient)
     if hasattr(given, "vertices") and hasattr(given, "faces") and not isinstance(given, type):

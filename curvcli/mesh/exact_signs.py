@@ -44,7 +44,7 @@ def exact_sides(first: Floats, second: Floats, third: Floats) -> Sign:
     Source: Edelsbrunner and Mücke, Simulation of simplicity, 1990.
     """
     result = _determinants(first, second, third)
-    for decide in _disturbed(first, second, third):
+    for decide in _perturbed(first, second, third):
         rest = np.flatnonzero(result == 0)
         if not len(rest):
             break
@@ -52,7 +52,7 @@ def exact_sides(first: Floats, second: Floats, third: Floats) -> Sign:
     return result
 
 
-def _disturbed(u: Floats, v: Floats, w: Floats) -> Iterator[_Decide]:
+def _perturbed(u: Floats, v: Floats, w: Floats) -> Iterator[_Decide]:
     """The sign of a zero determinant: the first nonzero term of its perturbation expansion, from the largest down."""
 
     def minor(a: Floats, b: Floats, without: int, turn: int) -> _Decide:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..support.arrays import Floats
+from .arrays import Floats
 
 VectorLike = tuple[Floats, Floats, Floats] | list[Floats]
 

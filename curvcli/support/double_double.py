@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..support.arrays import Floats
+from .arrays import Floats
 from .compensated import two_difference, two_product
 
 # In a triangle with a larger cotangent, plain dot products of its edges lose more than 1e-13 of its area.

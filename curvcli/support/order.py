@@ -9,7 +9,7 @@ from typing import TypeVar
 _Entry = TypeVar("_Entry")
 
 
-def in_order(
+def topological_order(
     entries: Iterable[_Entry], name: Callable[[_Entry], str], after: Callable[[_Entry], str | None]
 ) -> list[_Entry]:
     """Sort entries so that each comes behind the one that it names, whatever order they are declared in.

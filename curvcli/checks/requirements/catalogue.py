@@ -9,7 +9,7 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 from ...errors import UsageError
-from ...support.order import in_order
+from ...support.order import topological_order
 from ...support.words import suggestion
 from .base import Required, Requirement, registered
 
@@ -34,7 +34,7 @@ def _load_built_ins() -> None:
 def requirements() -> dict[str, Requirement]:
     """All requirements by name, in the order of lists."""
     _load_built_ins()
-    return dict(in_order(registered.items(), lambda entry: entry[0], lambda entry: entry[1].after))
+    return dict(topological_order(registered.items(), lambda entry: entry[0], lambda entry: entry[1].after))
 
 
 def defaults() -> list[str]:

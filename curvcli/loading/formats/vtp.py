@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 def has_sign(pieces: Pieces) -> bool:
     """Test for a root element VTKFile with the type PolyData."""
-    from ..vtk.sign import kind_of
+    from ..vtk.sign import dataset_type
 
-    return kind_of(pieces) == "PolyData"
+    return dataset_type(pieces) == "PolyData"
 
 
 def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:

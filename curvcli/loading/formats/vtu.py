@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 def has_sign(pieces: Pieces) -> bool:
     """Test for a root element VTKFile with the type UnstructuredGrid."""
-    from ..vtk.sign import kind_of
+    from ..vtk.sign import dataset_type
 
-    return kind_of(pieces) == "UnstructuredGrid"
+    return dataset_type(pieces) == "UnstructuredGrid"
 
 
 def _parse(pieces: Pieces, options: ParserOptions) -> MeshFile:

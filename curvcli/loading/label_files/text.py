@@ -48,7 +48,7 @@ def read_text(data: bytes) -> LabelFile:
         return _table([line.split() for line in io.StringIO(text, newline=None) if line.strip()])
     if separator is None:
         numbers = _numbers(text)
-        return _words(text) if numbers is None else numbers
+        return _label_lines(text) if numbers is None else numbers
     try:
         rows = [row for row in csv.reader(io.StringIO(text, newline=""), delimiter=separator) if row]
     except csv.Error as error:
@@ -84,7 +84,7 @@ def _element(header: str) -> LabelledElement | None:
     return next((element for start, element in _STARTS if header.strip('"').lower().startswith(start)), None)
 
 
-def _words(text: str) -> LabelFile:
+def _label_lines(text: str) -> LabelFile:
     """Lines of words: all of them labels, or all but the first; quotes of CSV are removed."""
     lines = [line.strip() for line in io.StringIO(text, newline=None)]
     _refuse_mixed(lines, 1, "line")
@@ -95,7 +95,7 @@ def _words(text: str) -> LabelFile:
             hint="a first line `vertex label` makes it a table",
         )
     names = [line[1:-1].replace('""', '"') if line[:1] == line[-1:] == '"' else line for line in lines if line]
-    return LabelFile(coded(names), _element(names[0]), header=True)
+    return LabelFile(labels_of(names), _element(names[0]), header=True)
 
 
 def _refuse_mixed(cells: list[str], begin: int, name: str) -> None:
@@ -108,7 +108,7 @@ def _refuse_mixed(cells: list[str], begin: int, name: str) -> None:
         raise InputError(problem, place=f"{name} {wrong + begin}")
 
 
-def coded(names: Iterable[str]) -> Labels:
+def labels_of(names: Iterable[str]) -> Labels:
     """Words as labels, in the order of first use; an empty word is no label."""
     number: dict[str, int] = {}
     codes = np.array([number.setdefault(name, len(number)) if name else -1 for name in names], np.int32)
@@ -135,13 +135,13 @@ def _table(rows: list[list[str]]) -> LabelFile:
         values = np.array([float(cell) if cell else -1 for cell in cells])
     else:
         _refuse_mixed(["", *cells], 1, "row")
-        values = coded(cells)
+        values = labels_of(cells)
     if index is None:
         return LabelFile(values)
-    return LabelFile(values, _INDEX[index], _places([row[names.index(index)] for row in rows[1:]], index))
+    return LabelFile(values, _INDEX[index], _indices([row[names.index(index)] for row in rows[1:]], index))
 
 
-def _places(cells: list[str], name: str) -> NDArray[np.int64]:
+def _indices(cells: list[str], name: str) -> NDArray[np.int64]:
     try:
         return np.array([int(cell) for cell in cells], np.int64)
     except (ValueError, OverflowError):

@@ -50,7 +50,7 @@ class Attribute:
         return {name: np.ascontiguousarray(self.values[:, k]) for k, name in enumerate(names)}
 
 
-def joined_attributes(pieces: Sequence[Sequence[Attribute]], notices: list[Notice]) -> list[Attribute]:
+def concatenate_attributes(pieces: Sequence[Sequence[Attribute]], notices: list[Notice]) -> list[Attribute]:
     """The arrays of consecutive pieces as one; an array that a piece lacks is dropped, with a notice."""
     if len(pieces) == 1:
         return list(pieces[0])

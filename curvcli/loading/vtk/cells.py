@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...errors import InputError
 from ..corners import checked_corners
 from ..strips import strip_triangles
-from .kinds import CORNERS, FACES, LINES, PIXEL, STRIP, count_of, is_curved, name_of
+from .cell_types import CORNERS, FACES, LINES, PIXEL, STRIP, cell_type_name, count_of, is_curved
 
 WholeNumbers = NDArray[np.integer[Any]]
 
@@ -126,7 +126,7 @@ def of_types(cells: CellLists, types: WholeNumbers, vertices: int) -> CellFaces:
     types = types.astype(np.uint8, copy=False)
     counts = np.bincount(types, minlength=256)
     present = {kind: int(counts[kind]) for kind in np.flatnonzero(counts).tolist()}
-    if curved := {name_of(kind): count for kind, count in present.items() if is_curved(kind)}:
+    if curved := {cell_type_name(kind): count for kind, count in present.items() if is_curved(kind)}:
         raise InputError(f"{count_of(sum(curved.values()), 'curved face')} found", hint=STRAIGHT)
     for kind in present.keys() & CORNERS.keys():
         wrong = np.flatnonzero((types == kind) & (cells.sizes != CORNERS[kind]))
@@ -136,7 +136,7 @@ def of_types(cells: CellLists, types: WholeNumbers, vertices: int) -> CellFaces:
     others: Counter[str] = Counter()
     for kind, count in present.items():
         if kind not in (*FACES, *LINES):
-            others[name_of(kind)] += count
+            others[cell_type_name(kind)] += count
     lines = _checked(cells.of(_is_in(types, LINES)), "line", vertices) if present.keys() & {*LINES} else NONE
     is_face = _is_in(types, FACES)
     faces = cells.of(is_face)
@@ -198,7 +198,7 @@ def _with_strips(
     return CellFaces(every.corners[at].astype(np.int32), sizes, origin[order], cells.count, lines, others)
 
 
-def joined(pieces: Sequence[CellFaces], vertices: Sequence[int]) -> CellFaces:
+def concatenate_faces(pieces: Sequence[CellFaces], vertices: Sequence[int]) -> CellFaces:
     """Faces of consecutive pieces, given the number of vertices of each."""
     if len(pieces) == 1:
         return pieces[0]

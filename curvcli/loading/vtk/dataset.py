@@ -14,9 +14,9 @@ from ...mesh.file import NO_POLYLINES, Labels, MeshFile, Polylines
 from ...support.words import pluralize
 from ..limits import check_faces
 from ..registry import ParserOptions
-from .attributes import Attribute, joined_attributes, labels, properties
-from .cells import STRAIGHT, CellFaces, joined
-from .kinds import count_of
+from .attributes import Attribute, concatenate_attributes, labels, properties
+from .cell_types import count_of
+from .cells import STRAIGHT, CellFaces, concatenate_faces
 from .meanings import Meanings
 
 
@@ -47,7 +47,7 @@ def mesh_file(data: DataSet, format: str, options: ParserOptions) -> MeshFile:
     Errors: InputError without a face or line.
     """
     notices, points = data.notices, [piece.points for piece in data.pieces]
-    faces = joined([piece.faces for piece in data.pieces], [len(piece) for piece in points])
+    faces = concatenate_faces([piece.faces for piece in data.pieces], [len(piece) for piece in points])
     check_faces(len(faces.sizes), options.max_faces)
     others = ", ".join(count_of(number, name) for name, number in faces.others.items())
     if not len(faces.sizes) and not faces.lines.count:
@@ -57,8 +57,8 @@ def mesh_file(data: DataSet, format: str, options: ParserOptions) -> MeshFile:
         total = sum(faces.others.values())
         message = f"{pluralize(total, '[cell that is no face|cells that are no faces]')}, ignored: {others}"
         notices.append(Notice("other_cells", total, message, "a surface has triangles and polygons only"))
-    of_points = joined_attributes([piece.of_points for piece in data.pieces], notices)
-    of_cells = joined_attributes([piece.of_cells for piece in data.pieces], notices)
+    of_points = concatenate_attributes([piece.of_points for piece in data.pieces], notices)
+    of_cells = concatenate_attributes([piece.of_cells for piece in data.pieces], notices)
     at_points = labels(of_points, data.meanings.points)
     corners, sizes, cell = _without_short(faces, notices)
     named = labels(of_cells, data.meanings.cells)

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 _SIGN = re.compile(rb"<VTKFile\b[^<>]*?\btype\s*=\s*[\"'](\w+)[\"']")
 
 
-def kind_of(pieces: Pieces) -> str:
+def dataset_type(pieces: Pieces) -> str:
     """The type of the data set of a VTK XML file; empty for any other content."""
     start = pieces.ahead()
     if not start[:100].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):

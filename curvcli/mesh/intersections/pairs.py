@@ -100,9 +100,9 @@ def _without_common_corner(p: Floats, q: Floats) -> Sign:
     # lies below: all chords then run the same way along the line in which the planes meet.
     a, b, c = _lone_first(p, below)
     d, e, f = _lone_first(q, above)
-    low = _sinks(below)
+    low = _lone_below(below)
     e, f = np.where(low, f, e), np.where(low, e, f)
-    low = _sinks(above)
+    low = _lone_below(above)
     b, c = np.where(low, c, b), np.where(low, b, c)
     first_sign, second_sign = orient3d(a, b, d, e), orient3d(a, c, f, d)
     both_sides = _mixed(above) & _mixed(below)
@@ -217,7 +217,7 @@ def _lone_first(corners: Floats, signs: Sign) -> list[Floats]:
     return [corners[(lone + step) % 3, :, column].T for step in range(3)]
 
 
-def _sinks(signs: Sign) -> Mask:
+def _lone_below(signs: Sign) -> Mask:
     """(n,) flags: the lone corner lies below the other two."""
     lone, column = _lone(signs), np.arange(signs.shape[-1])
     lone_sign = signs[lone, column]

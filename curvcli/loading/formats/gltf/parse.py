@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ....errors import InputError, Notice
 from ....mesh.file import MeshFile
 from ....support.words import number_of, pluralize
-from ...copies import Matrix, check_copies, transformed, turned
+from ...copies import Matrix, check_copies, flip_mirrored, transformed
 from ...corners import checked_corners
 from ...pieces import Pieces
 from .labels import scene_labels
@@ -218,7 +218,7 @@ def _assembled(
             own = checked_corners(faces.reshape(-1), 3, place, count).reshape(-1, 3) + np.int32(
                 begins[primitive.position]
             )
-            corners.append(turned(own, matrix))
+            corners.append(flip_mirrored(own, matrix))
             nodes.append((number, len(own)))
             materials.append((-1 if primitive.material is None else primitive.material, len(own)))
     if not sum(map(len, corners)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....errors import InputError
-from ...copies import Matrix, product
+from ...copies import Matrix, compose
 from .tree import Node, Tree
 
 
@@ -28,7 +28,7 @@ def placed_meshes(tree: Tree) -> list[tuple[int, int, Matrix]]:
             raise InputError("a node with two parents found, one expected", place=f"node {number}")
         visited.add(number)
         node = tree.nodes[number]
-        matrix = product(outer, _local(node))
+        matrix = compose(outer, _local(node))
         if node.mesh is not None:
             if node.mesh >= len(tree.meshes):
                 problem = f"mesh {node.mesh} found, 0 to {len(tree.meshes) - 1} expected"

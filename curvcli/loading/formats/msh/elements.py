@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import InputError
-from .kinds import TYPES
+from .element_types import TYPES
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,17 @@ import numpy as np
 
 from ....errors import InputError
 from ....mesh.file import MeshFile
-from ...copies import Matrix, Runs, check_copies, distinct, label_faces, label_runs, product, transformed, turned
+from ...copies import (
+    Matrix,
+    Runs,
+    check_copies,
+    compose,
+    flip_mirrored,
+    label_faces,
+    label_runs,
+    transformed,
+    unique_names,
+)
 from ...pieces import Pieces
 from .model import Model, ObjectMesh, parse_model
 from .package import Package
@@ -47,7 +57,7 @@ def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
                 count += len(part.faces)
             inner = model.components[each]
             stack += [
-                (child, _key(other or key), product(outer, own), depth + 1) for child, other, own in reversed(inner)
+                (child, _key(other or key), compose(outer, own), depth + 1) for child, other, own in reversed(inner)
             ]
             copies += len(inner)
             check_copies(copies, vertices, faces, len(data), max_faces)
@@ -55,7 +65,7 @@ def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
         names.append(part_number or models[_key(path or root)].names[target])
     if not faces:
         raise InputError("no faces", hint="a surface needs an item in the build with a mesh of triangles")
-    return _assembled(models[_key(root)], placed, runs, distinct(names), list(materials))
+    return _assembled(models[_key(root)], placed, runs, unique_names(names), list(materials))
 
 
 def _key(path: str) -> str:
@@ -68,7 +78,7 @@ def _assembled(
     begins = np.cumsum([0, *(len(part.points) for part, _ in placed)]).tolist()
     points = np.concatenate([transformed(part.points, matrix) for part, matrix in placed])
     pairs = zip(placed, begins, strict=False)
-    corners = np.concatenate([turned(part.faces, matrix) + np.int32(begin) for (part, matrix), begin in pairs])
+    corners = np.concatenate([flip_mirrored(part.faces, matrix) + np.int32(begin) for (part, matrix), begin in pairs])
     labels = {kind: label_runs(runs, names) for kind in ("groups", "objects")}
     material = np.concatenate([part.material for part, _ in placed])
     if (material >= 0).any():

@@ -26,7 +26,7 @@ def is_curved(kind: int) -> bool:
     return kind in _CURVED
 
 
-def name_of(kind: int) -> str:
+def cell_type_name(kind: int) -> str:
     """The name of a cell type in messages."""
     if kind in (VERTEX, POLY_VERTEX):
         return "vertex"

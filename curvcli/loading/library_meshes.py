@@ -16,7 +16,7 @@ _STRAIGHT |= {"voxel": 11, "hexahedron": 12, "wedge": 13, "pyramid": 14, "polyhe
 _CURVED_LINE, _CURVED_FACE, _SOLID = 21, 22, 24
 
 
-def file_of(given: Any) -> MeshFile | None:
+def mesh_file_of(given: Any) -> MeshFile | None:
     """The content of a mesh of meshio, pyvista, trimesh, open3d, pymeshlab or nibabel; None for any other object.
 
     Rows keep their order. Data of points and cells become properties and labels, as those of a file.
