@@ -51,13 +51,13 @@ def distorted_stars(surface: Surface, columns: Mapping[str, Any]) -> tuple[NDArr
         t = triangles(surface.xyz, surface.faces[block])
         for corner, part in zip(t.corners, circumcentric_areas(t), strict=True):
             np.add.at(area, corner, part)
-    beyond = _exceeds_factor(area, columns["star_area"])
+    distorted = _exceeds_factor(area, columns["star_area"])
     size = _size(columns["K"], columns["h_signed"])
-    if not size[beyond].sum() >= _PART * size.sum() > 0:
+    if not size[distorted].sum() >= _PART * size.sum() > 0:
         return none
     size[size <= _rounding(surface)] = 0.0
-    whole, carried = size.sum(), size[beyond].sum()
-    return (np.flatnonzero(beyond & (size > 0)), float(carried / whole)) if carried >= _PART * whole > 0 else none
+    whole, carried = size.sum(), size[distorted].sum()
+    return (np.flatnonzero(distorted & (size > 0)), float(carried / whole)) if carried >= _PART * whole > 0 else none
 
 
 def _may_be_distorted(surface: Surface, columns: Mapping[str, Any]) -> bool:
@@ -78,8 +78,8 @@ def _size(K: Floats, h_signed: Floats) -> Floats:
 
 
 def _exceeds_factor(circumcentric: Floats, barycentric: Floats) -> Mask:
-    beyond: Mask = ~((circumcentric * FACTOR >= barycentric) & (circumcentric <= FACTOR * barycentric))
-    return beyond
+    exceeds: Mask = ~((circumcentric * FACTOR >= barycentric) & (circumcentric <= FACTOR * barycentric))
+    return exceeds
 
 
 def _rounding(surface: Surface) -> Floats:

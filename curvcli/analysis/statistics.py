@@ -240,22 +240,22 @@ class GroupedColumn:
 class _GroupsOfLikeSize(NamedTuple):
     """Groups of nearly equal size as rows of one array.
 
-    groups: their numbers. sizes: of each. places: (rows, longest) of their members; beyond the end of a row, that of
-    its last member. beyond: (rows, longest) mask of these places; None if there are none.
+    groups: their numbers. sizes: of each. rows: (groups, longest) of their members; beyond the end of a row, that of
+    its last member. padding: (groups, longest) mask of these entries; None if there are none.
     """
 
     groups: Ints
     sizes: Ints
-    places: Ints | None
-    beyond: Mask | None
+    rows: Ints | None
+    padding: Mask | None
 
     def rows_of(self, values: Floats, fill: float) -> Floats:
         """Values of the members as rows, with a value beyond the end of a row."""
-        if self.places is None:
+        if self.rows is None:
             return values[None].copy()
-        rows = values[self.places]
-        if self.beyond is not None:
-            rows[self.beyond] = fill
+        rows = values[self.rows]
+        if self.padding is not None:
+            rows[self.padding] = fill
         return rows
 
 
@@ -272,7 +272,7 @@ def _batches(sizes: Ints, starts: Ints) -> Iterator[_GroupsOfLikeSize]:
         last = int(np.searchsorted(ascending, longest, side="right"))
         groups = by_size[first:last]
         place = np.arange(int(ascending[last - 1]), dtype=np.int32)
-        beyond = place >= sizes[groups, None]
+        padding = place >= sizes[groups, None]
         rows = starts[groups, None] + np.minimum(place, sizes[groups, None] - 1)
-        yield _GroupsOfLikeSize(groups, sizes[groups], rows, beyond if beyond.any() else None)
+        yield _GroupsOfLikeSize(groups, sizes[groups], rows, padding if padding.any() else None)
         first = last

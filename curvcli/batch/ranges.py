@@ -55,8 +55,8 @@ def with_common_ranges(
     rows, todo = [], []
     for item in items:
         row = known.get(item.path)
-        same = row is not None and (row.ranges_options, row.version) == (options, __version__)
-        if row is not None and same and row.sha256 is not None and row.sha256 == hashes.get(item.path):
+        comparable = row is not None and (row.ranges_options, row.version) == (options, __version__)
+        if row is not None and comparable and row.sha256 is not None and row.sha256 == hashes.get(item.path):
             rows.append(row)
         else:
             todo.append(msgspec.structs.replace(item, outputs=()))

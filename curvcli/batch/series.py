@@ -40,8 +40,8 @@ def parse_plots(texts: Sequence[str], folder: str, items: Sequence[BatchItem], l
 
     Errors: UsageError for an unknown total, a key that needs --long, a name that is no picture or is taken.
     """
-    taken = {folded(os.path.join(folder, name)) for name in OWN}
-    taken |= {folded(path) for item in items for _, path in item.outputs}
+    paths = {folded(os.path.join(folder, name)) for name in OWN}
+    paths |= {folded(path) for item in items for _, path in item.outputs}
     plots = []
     for text in texts:
         listed, _, name = text.partition("=")
@@ -55,9 +55,9 @@ def parse_plots(texts: Sequence[str], folder: str, items: Sequence[BatchItem], l
         if output.suffix.count(".") > 1:
             raise UsageError(f"--plot {text}: expected a name that ends with .png, .pdf or .svg")
         path = folded(os.path.join(folder, name))
-        if path in taken:
+        if path in paths:
             raise UsageError(f"--plot {text}: another output has the name {name}; choose another")
-        taken.add(path)
+        paths.add(path)
         plots.append(Plot(keys, name))
     return plots
 

@@ -94,9 +94,9 @@ def shell_of(name: str | None) -> Shell:
     """
     shell_name = name or os.path.basename(os.environ.get("SHELL", ""))
     if shell_name not in SHELLS:
-        what = f"$SHELL is {os.environ.get('SHELL', '')!r}"
+        setting = f"$SHELL is {os.environ.get('SHELL', '')!r}"
         raise UsageError(
-            f"{what}: expected one of {', '.join(SHELLS)}; name the shell, as in `completion install bash`"
+            f"{setting}: expected one of {', '.join(SHELLS)}; name the shell, as in `completion install bash`"
         )
     home = os.path.abspath(os.path.expanduser("~"))
     data = os.environ.get("XDG_DATA_HOME") or os.path.join(home, ".local", "share")

@@ -177,8 +177,8 @@ def read_group(path: str, max_bytes: int | None) -> list[Member]:
         return rows
     members = [_report(name, max_bytes) for name in reports]
     if not members:
-        where = f"{escape_text(path)}: no report (.json)"
-        raise NoMatchError(f"{where} there; `curvcli batch MESHES -o DIR --save json` or --long writes some")
+        problem = f"{escape_text(path)}: no report (.json)"
+        raise NoMatchError(f"{problem} there; `curvcli batch MESHES -o DIR --save json` or --long writes some")
     return members
 
 

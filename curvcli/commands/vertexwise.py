@@ -126,8 +126,8 @@ class _GroupReader:
         moments = None
         for path in meshes:
             with phase(f"reading {path}", self.quiet):
-                asked = {key: self.conventions[key] for key in ("weld", "orient", "normals")}
-                surface = load(path, **asked, **self.limits)
+                conventions = {key: self.conventions[key] for key in ("weld", "orient", "normals")}
+                surface = load(path, **conventions, **self.limits)
                 self._check(surface, path)
                 result = compute(surface, Request(passes=self.passes, **self.conventions), Result)
             columns = self._columns(result)
@@ -188,8 +188,8 @@ def _write(
 
         assert reader.first is not None
         format.require()
-        shown = next(name for name in columns if name.endswith("_t"))
-        scale = colorize(columns[shown], signed=True)
+        colored = next(name for name in columns if name.endswith("_t"))
+        scale = colorize(columns[colored], signed=True)
         format.write(
             stream,
             positions,
@@ -197,10 +197,10 @@ def _write(
             vertex_colors=scale.rgb,
             vertex_properties=columns if format.properties else {},
             face_properties={},
-            comments=[f"curvcli: mean shape of {report['path_a']}; colour: {shown}, NaN is not tested"],
+            comments=[f"curvcli: mean shape of {report['path_a']}; colour: {colored}, NaN is not tested"],
             triangles=reader.first.faces,
             polygons=None,
-            active=shown,
+            active=colored,
         )
     else:
         write_table(stream, table(positions, columns), format.suffix, precision=precision)

@@ -62,20 +62,20 @@ def derived_total(
 def derived_for(chosen: Collection[str], values: Iterable[str]) -> list[DerivedTotal]:
     """Derived totals of an analysis, each after those that it needs. values: names of the settings given."""
     owners = {name.partition(".")[0] for name in values}
-    wanted = {name for name, each in derived.items() if name in owners or each.beside in chosen}
+    names = {name for name, each in derived.items() if name in owners or each.beside in chosen}
     for each in reversed(derived.values()):
-        if each.name in wanted:
-            wanted.update(need for need in each.needs if need in derived)
-    return [each for name, each in derived.items() if name in wanted]
+        if each.name in names:
+            names.update(need for need in each.needs if need in derived)
+    return [each for name, each in derived.items() if name in names]
 
 
 def compute_derived(
-    wanted: Iterable[DerivedTotal], surface: Surface, known: Mapping[str, Floats], closed: Mask, settings: Any
+    chosen: Iterable[DerivedTotal], surface: Surface, known: Mapping[str, Floats], closed: Mask, settings: Any
 ) -> Iterator[tuple[DerivedTotal, Floats]]:
-    """The wanted derived totals from the known totals, null where a piece is not one closed oriented component."""
-    have = dict(known)
-    for each in wanted:
+    """The chosen derived totals from the known totals, null where a piece is not one closed oriented component."""
+    totals = dict(known)
+    for each in chosen:
         with np.errstate(all="ignore"):
-            total = each.compute(*(have[need] for need in each.needs), **values_of(each, surface, settings))
-        have[each.name] = np.where(closed & np.isfinite(total), total, np.nan)
-        yield each, have[each.name]
+            total = each.compute(*(totals[need] for need in each.needs), **values_of(each, surface, settings))
+        totals[each.name] = np.where(closed & np.isfinite(total), total, np.nan)
+        yield each, totals[each.name]

@@ -116,13 +116,13 @@ def ratios(surface: Surface, degenerate_face: Flags) -> tuple[Column, ...]:
     def measure(block: slice) -> None:
         t = triangles(surface.xyz, surface.faces[block])
         a, b, c = (_length(edge) for edge in (t.u, t.v, t.w))
-        longest, around = np.maximum(np.maximum(a, b), c), a + b + c
+        longest, perimeter = np.maximum(np.maximum(a, b), c), a + b + c
         shortest = np.minimum(np.minimum(a, b), c)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            quality[0, block] = longest / t.twice_area * around / (2 * np.sqrt(3))
+            quality[0, block] = longest / t.twice_area * perimeter / (2 * np.sqrt(3))
             quality[1, block] = longest / shortest
             quality[3, block] = a / t.twice_area * b * c / 2
-            quality[2, block] = quality[3, block] / t.twice_area * around / 2
+            quality[2, block] = quality[3, block] / t.twice_area * perimeter / 2
 
     for_each(slices(surface.n_faces), measure)
     quality[1, ~np.isfinite(quality[1])] = np.nan

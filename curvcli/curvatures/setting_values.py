@@ -109,8 +109,8 @@ def find_setting(name: str) -> tuple[str, Setting]:
         raise UsageError(f"--set {name}: the pass {owner} has no parameters; those of others: {', '.join(having)}")
     names = {setting.name: setting for setting in known.settings}
     if key not in names:
-        what = f"no parameter {key!r}{suggestion(key, names)}" if dot else f"give one of {', '.join(names)}"
-        raise UsageError(f"--set {name}: the pass {owner} has {what}" if dot else f"--set {name}: {what}")
+        problem = f"no parameter {key!r}{suggestion(key, names)}" if dot else f"give one of {', '.join(names)}"
+        raise UsageError(f"--set {name}: the pass {owner} has {problem}" if dot else f"--set {name}: {problem}")
     full = names[key].key(known.name)
     return full, having[full]
 

@@ -58,8 +58,8 @@ def from_vertices(labels: NDArray[np.int32], faces: NDArray[np.integer[Any]]) ->
     a, b, c = (labels[faces[:, corner]] for corner in range(3))
     of_two = (a == b) | (a == c)
     result = np.where(of_two, a, np.where(b == c, b, labels[faces.min(axis=1)]))
-    alike = (a == b) & (b == c)
-    return result, int(np.count_nonzero(~alike)), int(np.count_nonzero(~(of_two | (b == c))))
+    equal = (a == b) & (b == c)
+    return result, int(np.count_nonzero(~equal)), int(np.count_nonzero(~(of_two | (b == c))))
 
 
 def _length(values: NDArray[Any], source: str) -> int:

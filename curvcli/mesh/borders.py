@@ -38,7 +38,7 @@ def split_vertices(
     inner = inner[stable_order(label[inner], count)]
     at = np.flatnonzero(mixed[faces])
     # The copies on borders are few: only they are sorted by region and vertex.
-    key, which = np.unique(face[at // 3].astype(np.int64) * n_vertices + faces.ravel()[at], return_inverse=True)
+    key, inverse = np.unique(face[at // 3].astype(np.int64) * n_vertices + faces.ravel()[at], return_inverse=True)
     on_border = np.searchsorted(label[inner].astype(np.int64) * n_vertices + inner, key) + np.arange(len(key))
     inside = np.ones(len(inner) + len(key), bool)
     inside[on_border] = False
@@ -48,5 +48,5 @@ def split_vertices(
     copy = np.zeros(n_vertices, np.int32)
     copy[inner] = np.flatnonzero(inside)
     corners = copy[faces]
-    corners.ravel()[at] = on_border[which]
+    corners.ravel()[at] = on_border[inverse]
     return vertex, region, corners

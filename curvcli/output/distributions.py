@@ -66,14 +66,14 @@ def sample(analysis: Result, name: str, mesh: str | None = None, *, areas: bool 
     from .pictures.rounding_floor import floor
 
     quantity, surface = vertex_quantities(analysis.chosen)[name], analysis.surface
-    about = mesh or mesh_name(analysis), name, quantity
+    names = mesh or mesh_name(analysis), name, quantity
     area = analysis.column("star_area") if areas else np.empty(0)
     if quantity.labels:
-        return ColumnSample(*about, analysis.columns[name], area, surface.boundary)
+        return ColumnSample(*names, analysis.columns[name], area, surface.boundary)
     values = np.where(surface.referenced, analysis.vertices[name].astype(np.float64), np.nan)
     rigidity = analysis.conventions.rigidity
     energy = None if rigidity is None else rigidity.unit
-    return ColumnSample(*about, values, area, surface.boundary, floor(analysis, quantity, values), energy)
+    return ColumnSample(*names, values, area, surface.boundary, floor(analysis, quantity, values), energy)
 
 
 def histograms(appearance: Appearance, chosen: list[str]) -> tuple[tuple[str, ...], ...]:
@@ -112,8 +112,8 @@ def samples_of(analysis: Result, appearance: Appearance, mesh: str | None = None
     """The histograms of one mesh. mesh: its name, by default that of its file."""
     from .pictures.legend import about
 
-    asked = histograms(appearance, analysis.chosen)
-    samples = [[[sample(analysis, name, mesh)] for name in columns] for columns in asked]
+    groups = histograms(appearance, analysis.chosen)
+    samples = [[[sample(analysis, name, mesh)] for name in columns] for columns in groups]
     quantities = [column[0].quantity for columns in samples for column in columns]
     return MeshSamples(samples, about(analysis, quantities), analysis.conventions.unit)
 

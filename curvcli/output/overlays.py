@@ -34,21 +34,21 @@ def overlay_columns(path: str, format: OverlayFormat, appearance: Appearance, ch
     named = stem.rpartition(".")[2]
     if named in columns:
         return [named]
-    asked = [name for name in appearance.color_by if name in columns]
+    colored = [name for name in appearance.color_by if name in columns]
     others = vertex_quantities([quantity.name for quantity in passes.quantities("vertex")])
-    where = escape_text(path)
-    if named in others and not asked:
-        raise UsageError(f"{where}: {named} is not computed; -p core,{others[named].name} adds it")
-    if len(asked) > 1 and not format.several:
+    place = escape_text(path)
+    if named in others and not colored:
+        raise UsageError(f"{place}: {named} is not computed; -p core,{others[named].name} adds it")
+    if len(colored) > 1 and not format.several:
         raise UsageError(
-            f"{where}: {format.suffix} holds one column; name it in the path, as lh.{asked[0]}{format.suffix}"
+            f"{place}: {format.suffix} holds one column; name it in the path, as lh.{colored[0]}{format.suffix}"
         )
-    if appearance.color_by and not asked:
-        raise UsageError(f"{where}: --color-by {appearance.color_by[0]}: an overlay needs a column of vertices")
+    if appearance.color_by and not colored:
+        raise UsageError(f"{place}: --color-by {appearance.color_by[0]}: an overlay needs a column of vertices")
     default = coloring(appearance, chosen)
-    if not asked and default is None:
-        raise UsageError(f"{where}: no column for it is computed; -p core adds some")
-    return asked or [str(default)]
+    if not colored and default is None:
+        raise UsageError(f"{place}: no column for it is computed; -p core adds some")
+    return colored or [str(default)]
 
 
 def check_overlays(paths: Iterable[str], appearance: Appearance, chosen: list[str], name: str | None) -> None:

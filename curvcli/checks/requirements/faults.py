@@ -54,8 +54,8 @@ class Fault(str):
         fault.elements = elements
         return fault
 
-    def __add__(self, after: str) -> Fault:
-        return Fault(str.__add__(self, after), *self.elements)
+    def __add__(self, text: str) -> Fault:
+        return Fault(str.__add__(self, text), *self.elements)
 
     def __radd__(self, before: str) -> Fault:
         return Fault(str.__add__(before, self), *self.elements)

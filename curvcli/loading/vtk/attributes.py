@@ -74,8 +74,8 @@ def ignored(names: Sequence[str], reason: str, hint: str) -> list[Notice]:
     """The notice for arrays that are not kept; none for no names."""
     if not names:
         return []
-    shown = escape_text(", ".join(name[:40] for name in names[:5]))
-    message = f"{pluralize(len(names), '[array|arrays]')} {reason}, ignored: {shown}"
+    listed = escape_text(", ".join(name[:40] for name in names[:5]))
+    message = f"{pluralize(len(names), '[array|arrays]')} {reason}, ignored: {listed}"
     return [Notice("ignored_arrays", len(names), message, hint)]
 
 

@@ -99,7 +99,7 @@ def _decoder(data: bytes, document: Document, options: ParserOptions) -> Decoder
 
 
 def _piece(piece: XmlElement, number: int | None, decoder: Decoder, format: str) -> VtkPiece:
-    where = "" if number is None else f"piece {number}: "
+    place = "" if number is None else f"piece {number}: "
     try:
         points = _count(piece, "NumberOfPoints")
         xyz = _points(piece, points, decoder)
@@ -117,7 +117,7 @@ def _piece(piece: XmlElement, number: int | None, decoder: Decoder, format: str)
             list(_attributes(piece, "CellData", faces.cells, decoder)),
         )
     except InputError as error:
-        error.place = f"{where}{error.place or ''}" or None
+        error.place = f"{place}{error.place or ''}" or None
         raise
 
 

@@ -31,12 +31,12 @@ def contacts(p: Floats, q: Floats, shared: int) -> Sign:
     Triangle-Triangle Overlap Test Using Orientation Predicates, 2003.
     """
     result = np.full(p.shape[-1], APART, np.int8)
-    apart, decide = (
+    separated, decide = (
         (_apart, _without_common_corner),
         (_apart_at_corner, _with_common_corner),
         (_apart_at_edge, _with_common_edge),
     )[shared]
-    rows = np.flatnonzero(~apart(p, q))
+    rows = np.flatnonzero(~separated(p, q))
     if len(rows):
         result[rows] = decide(p[..., rows], q[..., rows])
     return result
@@ -61,11 +61,11 @@ def _apart_at_corner(p: Floats, q: Floats) -> Mask:
     ends, others = p[1:] - p[0], q[1:] - p[0]
     normal: Floats = _unit(others[0]) + _unit(others[1]) - _unit(ends[0]) - _unit(ends[1])
     size = np.abs(normal)
-    apart = np.ones(p.shape[-1], bool)
+    separated = np.ones(p.shape[-1], bool)
     for turn, corners in ((-1, ends), (1, others)):
         for x in corners:
-            apart &= turn * dot(normal, x) > _CERTAIN * dot(size, np.abs(x))
-    return apart
+            separated &= turn * dot(normal, x) > _CERTAIN * dot(size, np.abs(x))
+    return separated
 
 
 def _apart_at_edge(p: Floats, q: Floats) -> Mask:
@@ -121,8 +121,8 @@ def _with_common_corner(p: Floats, q: Floats) -> Sign:
     flat = ~above.any(axis=0)
     result[rows[flat]] = _in_one_plane(p[..., flat], q[..., flat], 1)
     # Each cuts the other's plane in a ray from the corner; the two meet beyond it if the rays run the same way.
-    same = np.sign(below[0] - below[1]) == np.sign(above[1] - above[0])
-    meet = ~flat & ~_one_sided(below) & same
+    codirectional = np.sign(below[0] - below[1]) == np.sign(above[1] - above[0])
+    meet = ~flat & ~_one_sided(below) & codirectional
     crossing = _mixed(above) & _mixed(below)
     result[rows[meet]] = np.where(crossing, CROSSING, TOUCHING)[meet]
     return result
@@ -159,8 +159,8 @@ def _in_one_plane(p: Floats, q: Floats, shared: int) -> Sign:
 
 def _same_way(origin: Floats, a: Floats, b: Floats) -> Mask:
     """(n,) flags of collinear points: a and b lie on the same side of the origin."""
-    way = np.sign(a - origin), np.sign(b - origin)
-    return np.asarray((way[0] == way[1]).all(axis=0))
+    signs = np.sign(a - origin), np.sign(b - origin)
+    return np.asarray((signs[0] == signs[1]).all(axis=0))
 
 
 def _projected(p: Floats, q: Floats) -> tuple[Floats, Floats]:
@@ -170,10 +170,10 @@ def _projected(p: Floats, q: Floats) -> tuple[Floats, Floats]:
     chosen, column = axes[0], np.arange(p.shape[-1])
     for axis in axes[1:]:
         # Rounding may have made a component of the normal that is 0 the largest.
-        lost = np.flatnonzero(_area(_dropped(p, chosen, column)) == 0)
-        if not len(lost):
+        flat = np.flatnonzero(_area(_dropped(p, chosen, column)) == 0)
+        if not len(flat):
             break
-        chosen[lost] = axis[lost]
+        chosen[flat] = axis[flat]
     return _dropped(p, chosen, column), _dropped(q, chosen, column)
 
 

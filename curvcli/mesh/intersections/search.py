@@ -70,8 +70,8 @@ def face_contacts(surface: Surface) -> FaceContacts:
 def _corners(surface: Surface) -> NDArray[np.intp]:
     """(3, F) corners; vertices at one position have the number of the first."""
     faces = surface.faces.T
-    again = duplicate_vertices(surface)
-    if len(again):
+    duplicates = duplicate_vertices(surface)
+    if len(duplicates):
         first, into = weld_exact(surface.xyz_given)
         faces = first[into][faces]
     return np.ascontiguousarray(faces, np.intp)

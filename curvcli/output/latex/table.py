@@ -63,11 +63,11 @@ def write_totals(stream: BinaryIO, analysis: Result, appearance: Appearance) -> 
         for name, value in whole_piece(analysis).totals.items()
     ]
     chosen = analysis.conventions
-    about = [
+    comments = [
         f"curvcli {__version__}: {mesh_name(analysis)}",
         f"mean {chosen.mean}, area {chosen.area}, orient {chosen.orient}, weld {chosen.weld}",
     ]
-    stream.write(_rendered(about, ["l", "r", "l"], ["total", "value", "unit"], rows))
+    stream.write(_rendered(comments, ["l", "r", "l"], ["total", "value", "unit"], rows))
 
 
 def _value(value: Any, digits: int) -> str:

@@ -99,9 +99,9 @@ def _write_vertices(
 ) -> None:
     for rows in slices(len(points), ROWS_AT_A_TIME):
         finite: NDArray[np.bool_] = np.asarray(np.isfinite(points[rows]).all(axis=1))
-        some = np.where(finite[:, None], points[rows], 0.0)
-        columns: dict[str, pl.Series | str] = {"n": numbers(np.arange(rows.start, rows.start + len(some)) + 1)}
-        columns |= {axis: numbers(some[:, k]) for k, axis in enumerate("xyz")}
+        positions = np.where(finite[:, None], points[rows], 0.0)
+        columns: dict[str, pl.Series | str] = {"n": numbers(np.arange(rows.start, rows.start + len(positions)) + 1)}
+        columns |= {axis: numbers(positions[:, k]) for k, axis in enumerate("xyz")}
         if values is not None:
             defined = np.isfinite(values[rows])
             word = numbers(defined).replace_strict([True, False], [name, None], return_dtype=pl.String)

@@ -31,16 +31,16 @@ def write_forest(stream: BinaryIO, report: GroupComparison, suffix: str) -> None
     )
     rows = tested[:_MOST][::-1]
     margin = 12.0
-    small = 0.85 * _FONT
+    small_font = 0.85 * _FONT
     sheet = Sheet((_WIDTH, 200), "white", suffix)
-    footer = sheet.flow(_footer(report, sheet, len(tested)), _WIDTH - 2 * margin, small)
-    foot = (len(footer) + 0.5) * LINE * small
+    footer = sheet.flow(_footer(report, sheet, len(tested)), _WIDTH - 2 * margin, small_font)
+    foot = (len(footer) + 0.5) * LINE * small_font
     tall = _ROW * max(1, len(rows))
     height = round(4.2 * _FONT + tall + 2.6 * _FONT + foot)
     sheet = Sheet((_WIDTH, height), "white", suffix)
     title = f"{report.group_b.path} − {report.group_a.path}"
     sheet.text(margin, 1.3 * _FONT, title, min(_FONT, _FONT * (_WIDTH - 2 * margin) / sheet.measure(title, _FONT)))
-    names = [sheet.measure(row.key, small) for row in rows]
+    names = [sheet.measure(row.key, small_font) for row in rows]
     longest = 0.5 * _WIDTH
     left = margin + min(longest, max(names, default=0.0)) + 12
     axes = sheet.axes((left, 2.6 * _FONT, _WIDTH - left - 2 * margin, tall))
@@ -50,18 +50,18 @@ def write_forest(stream: BinaryIO, report: GroupComparison, suffix: str) -> None
         axes.plot(np.clip([low, high], -_FARTHEST, _FARTHEST), [place, place], color=color, linewidth=1.2)
         inside = color if row.significant else "white"
         mark = "o" if abs(middle) <= _FARTHEST else ">" if middle > 0 else "<"
-        shown = min(max(middle, -_FARTHEST), _FARTHEST)
-        axes.plot([shown], [place], mark, color=color, markersize=5, markerfacecolor=inside)
+        estimate = min(max(middle, -_FARTHEST), _FARTHEST)
+        axes.plot([estimate], [place], mark, color=color, markersize=5, markerfacecolor=inside)
         y = 2.6 * _FONT + tall * (1 - (place + 0.5) / len(rows))
-        sheet.text(margin, y, row.key, small * min(1.0, longest / max(names[place], 1.0)))
+        sheet.text(margin, y, row.key, small_font * min(1.0, longest / max(names[place], 1.0)))
     axes.axvline(0.0, color=sheet.ink, linewidth=0.8)
     axes.set_ylim(-0.5, max(1, len(rows)) - 0.5)
     axes.set_yticks([])
     finish_axes(sheet, axes, tall, _FONT, percent=False)
     axes.spines["left"].set_visible(False)
     label = "difference of means in pooled standard deviations"
-    sheet.text(left, 2.6 * _FONT + tall + 2.2 * _FONT, label, small, color=sheet.pale)
-    sheet.draw(footer, margin, height - foot, small)
+    sheet.text(left, 2.6 * _FONT + tall + 2.2 * _FONT, label, small_font, color=sheet.pale)
+    sheet.draw(footer, margin, height - foot, small_font)
     stream.write(sheet.content(title, label))
 
 

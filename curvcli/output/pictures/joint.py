@@ -36,16 +36,16 @@ def draw_joint(sheet: Sheet, axes: Sequence[Axis], number: int, box: Box, font: 
     low, high = float(filled.min()), float(filled.max())
     left, top, width, height = box
     bar = 5.2 * font
-    shown = sheet.axes((left, top, width - bar, height))
+    plot = sheet.axes((left, top, width - bar, height))
     colors = ListedColormap(color_map(appearance.cmap or SEQUENTIAL) / 255.0)
     norm = LogNorm(low, high if high > low else low * 1.001)
     edges = [np.array([-0.75, *range(axis.bins + 1), axis.bins + 0.75]) for axis in axes]
     cells = each[number].T
-    shown.pcolormesh(*edges, np.ma.masked_where(cells <= 0, cells), cmap=colors, norm=norm, rasterized=False)
-    for axis, set_ticks, long in ((axes[0], shown.set_xticks, width - bar), (axes[1], shown.set_yticks, height)):
+    plot.pcolormesh(*edges, np.ma.masked_where(cells <= 0, cells), cmap=colors, norm=norm, rasterized=False)
+    for axis, set_ticks, long in ((axes[0], plot.set_xticks, width - bar), (axes[1], plot.set_yticks, height)):
         positions, labels = _ticks(axis, max(2, int(long / (4.5 * font))))
         set_ticks(positions, labels)
-    finish_axes(sheet, shown, height, font, percent=False)
+    finish_axes(sheet, plot, height, font, percent=False)
     key = sheet.axes((left + width - bar + 0.9 * font, top, 0.8 * font, height))
     key.imshow(colors(np.linspace(1, 0, 256))[:, None], aspect="auto", extent=(0, 1, 0, 1), interpolation="nearest")
     key.set_xticks([])

@@ -28,19 +28,19 @@ def write_series(
     panels: for each key its lines by name, (n,) with NaN where a mesh has no value: the line has a gap there. names: of
     the n meshes, numbered from 0 in the order of the summary.
     """
-    small = 0.85 * _FONT
+    small_font = 0.85 * _FONT
     sheet = Sheet((_WIDTH, 200), "white", suffix)
-    footers = sheet.flow(_footer(names), _WIDTH - 2 * _MARGIN, small)
-    legends = [sheet.flow(_legend(lines, len(names)), _WIDTH - 2 * _MARGIN, small) for lines in panels.values()]
-    heights = [_PANEL + len(legend) * LINE * small for legend in legends]
-    height = round(sum(heights) + len(footers) * LINE * small + _MARGIN)
+    footers = sheet.flow(_footer(names), _WIDTH - 2 * _MARGIN, small_font)
+    legends = [sheet.flow(_legend(lines, len(names)), _WIDTH - 2 * _MARGIN, small_font) for lines in panels.values()]
+    heights = [_PANEL + len(legend) * LINE * small_font for legend in legends]
+    height = round(sum(heights) + len(footers) * LINE * small_font + _MARGIN)
     sheet = Sheet((_WIDTH, height), "white", suffix)
     top = 0.0
     for (key, lines), legend, tall in zip(panels.items(), legends, heights, strict=True):
         _panel(sheet, key, lines, len(names), top)
-        sheet.draw(legend, _MARGIN, top + _PANEL, small)
+        sheet.draw(legend, _MARGIN, top + _PANEL, small_font)
         top += tall
-    sheet.draw(footers, _MARGIN, top, small)
+    sheet.draw(footers, _MARGIN, top, small_font)
     stream.write(sheet.content(", ".join(panels), f"{counted(len(names), 'mesh', 'meshes')} in order"))
 
 

@@ -155,22 +155,22 @@ def _fraction(part: ScopedStatistics, key: str) -> Floats | None:
 def _box(part: ScopedStatistics, key: str) -> Floats:
     """Bounding box of the referenced vertices, in the file's unit."""
     surface = part.analysis.surface
-    what, _, axis = key.partition("_")
-    where = np.zeros(surface.n_vertices)
+    measure, _, axis = key.partition("_")
+    no_area = np.zeros(surface.n_vertices)
     vertices = part.groups.vertices
     used = surface.referenced if vertices.label is None else None
 
     def ends(k: int) -> tuple[Floats, Floats]:
         segments = Segments(vertices.label, vertices.count, vertices.size)
-        grouped = GroupedColumn(surface.xyz_given[k], where, segments, used)
+        grouped = GroupedColumn(surface.xyz_given[k], no_area, segments, used)
         return grouped.min, grouped.max
 
     with np.errstate(over="ignore"):
-        if what == "diagonal":
+        if measure == "diagonal":
             x, y, z = (high - low for low, high in map(ends, range(3)))
             return np.hypot(np.hypot(x, y), z)  # no square leaves the range of doubles
         low, high = ends("xyz".index(axis))
-        return {"min": low, "max": high, "extent": high - low}[what]
+        return {"min": low, "max": high, "extent": high - low}[measure]
 
 
 _SECTIONS: dict[str, Callable[[ScopedStatistics, str], Floats | None]] = {
@@ -205,6 +205,6 @@ def values_of_parts(quantities: Sequence[Quantity], regions: bool) -> dict[str, 
     for sign in ("positive", "negative", "zero"):
         for name, needs in (("K", ()), ("H", ("h_signed",))):
             known[f"fractions_{name}_{sign}"] = ValueOfPart(f"fractions_{name}_{sign}", needs, "fraction")
-    for key in ("diagonal", *(f"{what}_{axis}" for what in ("extent", "min", "max") for axis in "xyz")):
+    for key in ("diagonal", *(f"{measure}_{axis}" for measure in ("extent", "min", "max") for axis in "xyz")):
         known[key] = ValueOfPart(key, (), "box")
     return known

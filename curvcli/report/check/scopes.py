@@ -86,8 +86,8 @@ class ScopedStatistics:
         """Statistics of a column in each group, and its values; of a vector, one component."""
         key = quantity.name, axis
         if key not in self._columns:
-            shown = self.analysis.shown(quantity.name)
-            values = (shown if axis is None else shown[:, axis]).astype(np.float64)
+            column = self.analysis.shown(quantity.name)
+            values = (column if axis is None else column[:, axis]).astype(np.float64)
             grouped = GroupedColumn(values, self._area(quantity.on, len(values)), self._segments(quantity.on))
             self._columns[key] = grouped, values
         return self._columns[key]

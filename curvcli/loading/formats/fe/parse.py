@@ -73,10 +73,10 @@ def _loops(vertices: ElementRows, edges: ElementRows, facets: ElementRows) -> ND
     """
     ends = row_of_numbers(vertices.id, edges.values, edges, "vertex").reshape(-1, 2)
     signed = facets.values
-    which = row_of_numbers(edges.id, np.abs(signed), facets, "edge")
+    edge_rows = row_of_numbers(edges.id, np.abs(signed), facets, "edge")
     back = signed < 0
-    tail = np.where(back, ends[which, 1], ends[which, 0])
-    head = np.where(back, ends[which, 0], ends[which, 1])
+    tail = np.where(back, ends[edge_rows, 1], ends[edge_rows, 0])
+    head = np.where(back, ends[edge_rows, 0], ends[edge_rows, 1])
     sizes = np.broadcast_to(np.asarray(facets.sizes, np.int64), facets.count)
     stop = np.cumsum(sizes)
     following = np.arange(1, len(tail) + 1)
@@ -102,10 +102,10 @@ def _bodies(facets: ElementRows, bodies: ElementRows | None) -> dict[str, Labels
     """The body of each facet, or the pair of a facet between two, as `1|2`."""
     front, back = np.zeros(facets.count, np.int64), np.zeros(facets.count, np.int64)
     if bodies is not None and bodies.count:
-        which = row_of_numbers(facets.id, np.abs(bodies.values), bodies, "facet")
+        facet_rows = row_of_numbers(facets.id, np.abs(bodies.values), bodies, "facet")
         owner = np.repeat(bodies.id, np.broadcast_to(np.asarray(bodies.sizes, np.int64), bodies.count))
         positive = bodies.values > 0
-        front[which[positive]], back[which[~positive]] = owner[positive], owner[~positive]
+        front[facet_rows[positive]], back[facet_rows[~positive]] = owner[positive], owner[~positive]
     for word, side in (("frontbody", front), ("backbody", back)):
         if (given := facets.attribute(word)) is not None:
             side[given > 0] = given[given > 0]

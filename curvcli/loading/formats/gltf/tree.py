@@ -175,8 +175,8 @@ def check_accessor(tree: Tree, index: int, place: str) -> Accessor:
     if accessor.component_type not in _ITEM_SIZES or accessor.type not in _COMPONENTS:
         raise InputError(f"type {accessor.component_type} {accessor.type[:20]!r} found, unknown to glTF", place=place)
     if accessor.sparse is not None or accessor.buffer_view is None:
-        what = "sparse data" if accessor.sparse is not None else "no data"
-        raise InputError(f"{what} found, an array in a buffer expected", place=place, hint="export it without")
+        content = "sparse data" if accessor.sparse is not None else "no data"
+        raise InputError(f"{content} found, an array in a buffer expected", place=place, hint="export it without")
     if accessor.buffer_view >= len(tree.buffer_views):
         raise InputError(f"bufferView {accessor.buffer_view} found, {len(tree.buffer_views)} exist", place=place)
     view = tree.buffer_views[accessor.buffer_view]

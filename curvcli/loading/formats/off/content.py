@@ -116,8 +116,8 @@ def _face_colours(
         whole = bool(np.isnan(index).sum() == np.count_nonzero(extra != 1)) and bool(
             (np.nan_to_num(index) % 1 == 0).all()
         )
-        small = whole and bool((np.abs(np.nan_to_num(index)) < 2**31).all())
-        properties["color_index"] = np.where(np.isnan(index), -1, index).astype(np.int32) if small else index
+        fits_int32 = whole and bool((np.abs(np.nan_to_num(index)) < 2**31).all())
+        properties["color_index"] = np.where(np.isnan(index), -1, index).astype(np.int32) if fits_int32 else index
     kind = np.uint8 if channels and _are_bytes(list(channels.values())) else np.float64
     return properties | {name: values.astype(kind) for name, values in channels.items()}
 

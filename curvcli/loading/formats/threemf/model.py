@@ -37,7 +37,7 @@ class Model:
 
     unit: str = _NO_UNIT
     names: dict[str, str] = field(default_factory=dict)
-    parts: dict[str, ObjectMesh] = field(default_factory=dict)
+    meshes: dict[str, ObjectMesh] = field(default_factory=dict)
     components: dict[str, list[tuple[str, str | None, Matrix]]] = field(default_factory=dict)
     items: list[tuple[str, str | None, Matrix, str | None]] = field(default_factory=list)
 
@@ -60,7 +60,7 @@ def parse_model(data: bytes, place: str, materials: dict[str, int]) -> Model:
         number = _required(each, "id")
         model.names[number] = each.get("name") or f"object {number}"
         for mesh in _below(each, "mesh"):
-            model.parts[number] = _part(each, mesh, blocks, palette, materials)
+            model.meshes[number] = _part(each, mesh, blocks, palette, materials)
         model.components[number] = [_placed(component) for component in _below(each, "components", "component")]
     for item in _below(root, "build", "item"):
         model.items.append((*_placed(item), item.get("partnumber")))

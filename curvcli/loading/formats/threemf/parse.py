@@ -51,7 +51,7 @@ def parse_3mf(pieces: Pieces, *, max_faces: int | None = None) -> MeshFile:
                 raise InputError(f"object {each[:40]} not found in the model", place=key[:80])
             if depth > _DEEPEST:
                 raise InputError("components more than 100 deep found, or an object that contains itself")
-            if part := model.parts.get(each):
+            if part := model.meshes.get(each):
                 placed.append((part, outer))
                 vertices, faces = vertices + len(part.points), faces + len(part.faces)
                 count += len(part.faces)
