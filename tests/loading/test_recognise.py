@@ -43,7 +43,7 @@ def test_streams_are_recognised_by_content(kind: str, packed: bool) -> None:
 
 def test_a_stream_has_no_name_to_be_wrong() -> None:
     (notice,) = read_mesh_file(io.BytesIO(CONTENT["obj"]), input_format="ply").notices
-    assert "not PLY as --input-format promises" in notice.message
+    assert "not PLY as --input-format says" in notice.message
     assert notice.hint == "--input-format obj"
 
 
