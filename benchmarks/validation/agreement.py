@@ -31,6 +31,8 @@ ILL_POSED = {
         "willmore",
         "willmore_hks",
         "willmore_perp",
+        "H_rectified",
+        "folding_index",
     ),
     "monkey_saddle": ("h_normal", "willmore_normal"),
 }
@@ -77,6 +79,7 @@ def exact() -> list[tuple[str, str, float, str]]:
 
 
 ANGLES = {"K", "kappa_g", "K_comb", "K_plus", "K_minus", "K_abs", "willmore_conformal", "theta", "beta"}
+ANGLES |= {"K_positive", "K_negative", "K_rectified", "intrinsic_index"}
 
 
 @dataclass(frozen=True)

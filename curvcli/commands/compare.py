@@ -140,7 +140,7 @@ def command(a: str, b: str, as_map: bool, **settings: Any) -> int:
       curvcli compare torus.ply exact.csv --rings 3
       curvcli compare controls/ patients/ -o differences.csv -o differences.pdf
       curvcli compare 'out/control*.json' 'out/patient*.json' --test permutation
-      curvcli compare 'control/*.ply' 'patient/*.ply' --vertexwise -p h_signed -o map.ply -o map.csv
+      curvcli compare 'a/*.ply' 'b/*.ply' --vertexwise -p h_signed -o map.ply
       curvcli compare mesh.obj flattened.obj --map
       curvcli compare mesh.obj --map uv
       curvcli compare mesh.obj flattened.obj --map --get totals.nonconformality

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -38,6 +39,15 @@ class DerivedTotal:
     energy: bool = False
     beside: str = ""
     settings: tuple[Setting, ...] = ()
+
+    def __reduce__(self) -> tuple[Callable[[str, str], DerivedTotal], tuple[str, str]]:
+        """Pickle a derived total by its name."""
+        return _derived_total_of, (self.compute.__module__, self.name)
+
+
+def _derived_total_of(module: str, name: str) -> DerivedTotal:
+    import_module(module)
+    return derived[name]
 
 
 derived: dict[str, DerivedTotal] = {}

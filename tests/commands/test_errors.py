@@ -64,8 +64,9 @@ def test_what_can_be_compared_is_listed(tmp_path: Path) -> None:
     (tmp_path / "t.npz").write_bytes(b"")
     ended = curvcli("compare", CUBE, "t.npz", folder=tmp_path)
     assert ended.code == 3
-    assert ended.complaint.startswith("t.npz: suffix `.npz` found, .obj, .ply, .stl expected")
-    assert ", or .json, .csv, .tsv, .parquet; --input-format" in ended.complaint
+    assert ended.complaint.startswith("t.npz: suffix `.npz` found, ")
+    assert all(f"{suffix}, " in ended.complaint for suffix in (".obj", ".ply", ".vtp"))
+    assert ", or .json, .csv, .tsv, .parquet, .jsonl; --input-format" in ended.complaint
 
 
 @pytest.mark.parametrize("arguments", [["analyze", CUBE, "--mean"], ["check", CUBE, "-o"], ["batch", "x", "--jobs"]])

@@ -69,7 +69,8 @@ def test_the_cavity_of_a_body_with_walls(seed: int) -> None:
         assert found.status == status
         if status == "fail":
             face = np.flatnonzero(label == 2)[0]
-            assert found.message == f"1 closed patch is inside out (face {face}): a cavity of positive volume"
+            assert found.message.startswith(f"1 closed patch is inside out (face {face} at (")
+            assert found.message.endswith(": a cavity of positive volume")
 
 
 @pytest.mark.parametrize("name", ["a wall", "a wall with two diagonals", "an edge", "a corner"])

@@ -46,7 +46,6 @@ except curvcli.errors.OutputError as error:
 
 curvcli.analyze(surface, area="voronoy")  # type: ignore[arg-type]
 curvcli.analyze(surface, "core", mena="sum")  # type: ignore[call-arg]
-curvcli.load(3)  # type: ignore[arg-type]
 analysis.vertexes  # type: ignore[attr-defined]
 analysis.passed + "yes"  # type: ignore[operator]
 """
