@@ -70,13 +70,13 @@ def _read(
         kind = input_format
         if isinstance(source, str | bytes | os.PathLike):
             file = stack.enter_context(open_regular(source, max_bytes))
-            hashed = Pieces(file)
+            hashed = stack.enter_context(Pieces(file))
             kind = kind or format_of_file(path, hashed)
         else:
-            hashed = Pieces(read_limited(source, max_bytes))
+            hashed = stack.enter_context(Pieces(read_limited(source, max_bytes)))
         pieces = hashed
         if hashed.ahead()[:2] == _GZIP:
-            pieces = Pieces(_inflated(hashed.rest(), max_bytes), hashed=False)
+            pieces = stack.enter_context(Pieces(_inflated(hashed.rest(), max_bytes), hashed=False))
         if not pieces.size:
             raise InputError("no data found, a mesh expected")
         format, notices = recognise(pieces, kind, by_name=input_format is None)

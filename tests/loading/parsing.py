@@ -47,10 +47,11 @@ def parsed(kind: str, data: bytes, **options: Any) -> MeshFile:
 
 
 def _outcome(kind: str, pieces: Pieces, options: dict[str, Any]) -> MeshFile | InputError:
-    try:
-        return PARSERS[kind](pieces, **options)
-    except InputError as error:
-        return error
+    with pieces:
+        try:
+            return PARSERS[kind](pieces, **options)
+        except InputError as error:
+            return error
 
 
 def _same(one: MeshFile, other: MeshFile) -> None:

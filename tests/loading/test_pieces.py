@@ -33,8 +33,7 @@ def test_every_byte_once(
 ) -> None:
     path = tmp_path_factory.getbasetemp() / "bytes"
     path.write_bytes(data)
-    with path.open("rb", buffering=0) as file:
-        pieces = Small(file if on_disk else data)
+    with path.open("rb", buffering=0) as file, Small(file if on_disk else data) as pieces:
         seen, last = b"", None
         for act in acts:
             assert pieces.left == len(data) - len(seen)
@@ -59,8 +58,7 @@ def test_every_byte_once(
 def test_pieces_stay_until_two_more_are_taken(tmp_path: Path) -> None:
     path = tmp_path / "bytes"
     path.write_bytes(bytes(range(250)))
-    with path.open("rb", buffering=0) as file:
-        pieces = Small(file)
+    with path.open("rb", buffering=0) as file, Small(file) as pieces:
         taken = [pieces.take(80) for _ in range(3)]
         assert [bytes(piece) for piece in taken] == [bytes(range(k, k + 80)) for k in (0, 80, 160)]
 
@@ -70,8 +68,7 @@ def test_pieces_stay_until_two_more_are_taken(tmp_path: Path) -> None:
 def test_a_file_that_changes(tmp_path: Path, change: int, taken: int) -> None:
     path = tmp_path / "bytes"
     path.write_bytes(bytes(100))
-    with path.open("rb", buffering=0) as file:
-        pieces = Pieces(file)
+    with path.open("rb", buffering=0) as file, Pieces(file) as pieces:
         pieces.take(taken)
         os.truncate(path, 100 + change)
         with pytest.raises(InputError, match=r"100 bytes expected, \d+ read: the file changed while it was read"):

@@ -217,8 +217,7 @@ def test_every_change_between_the_first_and_the_last_byte(change: str, tmp_path:
     """Also by a writer that sets the time back, at once after the file was made."""
     path = tmp_path / "m.bin"
     path.write_bytes(bytes(100))
-    with open(path, "rb", buffering=0) as file:
-        pieces = Pieces(file)
+    with open(path, "rb", buffering=0) as file, Pieces(file) as pieces:
         assert pieces.size == 100
         assert len(pieces.take(50)) == 50
         status = path.stat()

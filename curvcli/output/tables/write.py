@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import re
+import stat
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from threading import Event
@@ -59,7 +60,7 @@ def write_text(
     """Write columns as text with this separator; see `write_table`."""
     digits = parse_precision(precision)
     with _relayed(stream, stop) as relay:
-        _write_text(relay, columns, separator, digits, stop)
+        _write_text(_regular(stream) or relay, columns, separator, digits, stop)
 
 
 def write_parquet(stream: BinaryIO, columns: Mapping[str, Column], precision: str | int, stop: Event | None) -> None:
@@ -97,6 +98,19 @@ def _relayed(stream: BinaryIO, stop: Event | None) -> Iterator[_Relay]:
         if number and os.name == "posix":  # on other systems the numbers are not errno
             raise OSError(int(number[1]), os.strerror(int(number[1]))) from None
         raise
+
+
+def _regular(stream: BinaryIO) -> io.FileIO | None:
+    """The regular file behind a stream, if there is one.
+
+    polars writes to it without a copy in Python and without the interpreter lock, which the writer of a mesh needs at
+    the same time.
+    """
+    raw = getattr(stream, "raw", None)
+    if not isinstance(raw, io.FileIO) or not stat.S_ISREG(os.fstat(raw.fileno()).st_mode):
+        return None
+    stream.flush()
+    return raw
 
 
 def _write_text(
