@@ -106,7 +106,12 @@ def test_other_suffixes_are_refused_unless_told(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "header",
-    [b"\x1f\x8b", b"\x1f\x8b\x08\0\0\0\0\0\0\x03", gzip.compress(b"a header", mtime=0)[:80], b"\x1f\x8b\x08 made by a scanner"],
+    [
+        b"\x1f\x8b",
+        b"\x1f\x8b\x08\0\0\0\0\0\0\x03",
+        gzip.compress(b"a header", mtime=0)[:80],
+        b"\x1f\x8b\x08 made by a scanner",
+    ],
 )
 @pytest.mark.parametrize("rest", [b"", b"\n"])
 @pytest.mark.parametrize("name", ["part.stl", "part.STL.gz"])

@@ -21,14 +21,16 @@ def draw_title(
     font: float,
     room: float,
 ) -> None:
-    """Draw names, symbols and units of one column or of two, as large as fits; a unit has the power of its ticks."""
+    """Draw names, symbols and units of a column, or of two with their directions; a unit has the power of its ticks."""
     texts: list[tuple[str, bool]] = []
     for column in columns:
         scale = column.scale
         power = ticks(scale.low, scale.high, 5)[2] if scale.low is not None and scale.high is not None else 0
         unit = " ".join(part for part in (f"10{format_exponent(power)}" if power else "", column.unit(length)) if part)
         rest = "  ".join(part for part in (column.symbol, f"[{unit}]" if unit else "") if part)
-        texts += [("against", False)] * bool(texts) + [(column.name, True), (rest, False)]
+        texts += [(column.name, True), (rest, False)]
+        if len(columns) > 1:
+            texts.append(("upwards" if column is columns[-1] else "to the right,", False))
     gap = 0.8 * font
     widths = [sheet.measure(text, font, bold) for text, bold in texts]
     size = font * min(1.0, room / (sum(widths) + gap * (len(texts) - 1)))
